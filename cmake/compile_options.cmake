@@ -1,0 +1,19 @@
+# Options that every target of the project shares.
+add_library(supple_options INTERFACE)
+target_compile_options(supple_options INTERFACE -Wall -Wextra -Werror -ffp-contract=off)
+target_include_directories(supple_options INTERFACE ${PROJECT_SOURCE_DIR})
+
+# Fixed alignment, so that Eigen values can cross between code built for different processors.
+target_compile_definitions(supple_options INTERFACE EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MAX_STATIC_ALIGN_BYTES=32)
+
+if(SUPPLE_SANITIZE)
+  target_compile_options(supple_options INTERFACE
+    -fsanitize=${SUPPLE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(supple_options INTERFACE -fsanitize=${SUPPLE_SANITIZE})
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
+endif()

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "solver/core/types.h"
+
+namespace supple {
+
+/// A closed region of space: what particles fill, and later what bodies collide with.
+class Region {
+ public:
+  virtual ~Region() = default;
+
+  /// Distance to the boundary [m], negative inside.
+  virtual double signed_distance(const Vec3& x) const = 0;
+
+  virtual bool contains(const Vec3& x) const = 0;
+
+  /// The boundary point nearest to x [m].
+  virtual Vec3 closest_boundary_point(const Vec3& x) const = 0;
+
+  /// Enclosed volume [m³].
+  virtual double volume() const = 0;
+
+  virtual Box bounds() const = 0;
+};
+
+/// The particles that carry a field, at rest. V_i is a partition of the region's volume.
+struct Particles {
+  Points positions;          ///< [m], n×3
+  Eigen::VectorXd volumes;   ///< [m³], n; their sum is the region's volume
+  Eigen::VectorXd supports;  ///< support radii h_i [m], n
+  double spacing = 0;        ///< mean distance of neighbours s [m]
+
+  Index size() const { return positions.rows(); }
+};
+
+}  // namespace supple
