@@ -1,0 +1,67 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/field/moving_least_squares_options.h"
+#include "solver/field/neighbors.h"
+
+namespace supple {
+
+/// How many derivatives of the shape functions are wanted.
+enum class Derivatives { none, first, second };
+
+/// The shape functions that do not vanish at one point. Meant to be reused from point to point.
+template <int Dim>
+struct ShapeFunctions {
+  static constexpr int pairs = Dim * (Dim + 1) / 2;
+
+  std::vector<int> particles;  ///< n, ascending
+  Eigen::VectorXd values;      ///< φ_i, n
+  PointsOf<Dim> gradients;     ///< ∇φ_i [1/m], n×Dim
+  PointsOf<pairs> seconds;     ///< ∂²φ_i [1/m²], n×pairs: xx, xy, xz, yy, yz, zz
+  int rank = 0;                ///< of the moment matrix; the basis's size where nothing is lost
+
+  bool covered() const { return !particles.empty(); }
+};
+
+struct MovingLeastSquaresOptions {
+  BasisOrder order = BasisOrder::linear;
+  KernelKind kernel = KernelKind::polynomial;
+};
+
+/// Moving least squares shape functions φ_i(x) over particles with their own support radii.
+///
+/// They reproduce all polynomials of the basis's order wherever the particles that reach x span
+/// it. The weighted basis is orthogonalised block by block (constant, linear, quadratic), centred
+/// at the particles' weighted mean and scaled by their support; inside a block, directions that
+/// the particles do not span fade out smoothly. So Σφ_i = 1 holds to rounding everywhere, and
+/// values and derivatives stay bounded and continuous where the rank falls.
+/// Source: Adams & Wicke 2009, Eq. 21–32; errata.
+template <int Dim>
+class SUPPLE_API MovingLeastSquares {
+ public:
+  static constexpr int basis_size(BasisOrder order) {
+    if (order == BasisOrder::constant) return 1;
+    return order == BasisOrder::linear ? 1 + Dim : 1 + Dim + Dim * (Dim + 1) / 2;
+  }
+
+  /// `positions` [m] n×Dim, `supports` h_i [m] n.
+  MovingLeastSquares(const PointsOf<Dim>& positions, const Eigen::VectorXd& supports,
+                     const MovingLeastSquaresOptions& options = {});
+
+  /// Shape functions at x [m] with the derivatives asked for; none where x is not covered.
+  void evaluate(const VectorOf<Dim>& x, Derivatives derivatives, ShapeFunctions<Dim>& at_x) const;
+
+  const PointsOf<Dim>& positions() const { return positions_; }
+  const Eigen::VectorXd& supports() const { return supports_; }
+  const MovingLeastSquaresOptions& options() const { return options_; }
+  const Neighbors<Dim>& neighbors() const { return neighbors_; }
+
+ private:
+  PointsOf<Dim> positions_;
+  Eigen::VectorXd supports_;
+  MovingLeastSquaresOptions options_;
+  Neighbors<Dim> neighbors_;
+};
+
+}  // namespace supple

@@ -1,0 +1,113 @@
+#include "solver/field/samples.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "solver/core/check.h"
+#include "solver/core/parallel.h"
+
+namespace supple {
+namespace {
+
+constexpr Index points_per_chunk = 256;
+
+/// Rows of one chunk of points, before all chunks are put together.
+struct Chunk {
+  std::vector<int> row_sizes;
+  std::vector<int> particles;
+  std::vector<double> values;
+  std::vector<Vec3> gradients;
+  long uncovered = 0, rank_lost = 0;
+};
+
+/// φ_j(x) ≈ φ_j(x_p) + ∇φ_j(x_p)·(x − x_p) with p the particle nearest to x: keeps the sum 1 and
+/// affine fields exact.
+void extrapolate(const MovingLeastSquares<3>& field, const Vec3& x, ShapeFunctions<3>& at_x) {
+  const int nearest = field.neighbors().nearest(x, 1).front();
+  const Vec3 from = field.positions().row(nearest).transpose();
+  field.evaluate(from, Derivatives::first, at_x);
+  at_x.values += at_x.gradients * (x - from);
+}
+
+void append_row(const MovingLeastSquares<3>& field, const Vec3& x, SampleContent content,
+                ShapeFunctions<3>& at_x, Chunk& chunk) {
+  const bool wants_gradients = content == SampleContent::values_and_gradients;
+  field.evaluate(x, wants_gradients ? Derivatives::first : Derivatives::none, at_x);
+  if (!at_x.covered()) {
+    ++chunk.uncovered;
+    extrapolate(field, x, at_x);
+  } else if (at_x.rank < MovingLeastSquares<3>::basis_size(field.options().order)) {
+    ++chunk.rank_lost;
+  }
+  chunk.row_sizes.push_back(static_cast<int>(at_x.particles.size()));
+  chunk.particles.insert(chunk.particles.end(), at_x.particles.begin(), at_x.particles.end());
+  chunk.values.insert(chunk.values.end(), at_x.values.begin(), at_x.values.end());
+  if (!wants_gradients) return;
+  for (Index j = 0; j < at_x.gradients.rows(); ++j)
+    chunk.gradients.push_back(at_x.gradients.row(j).transpose());
+}
+
+}  // namespace
+
+Vec3 Samples::displacement(Index k, const Points& u) const {
+  Vec3 sum = Vec3::Zero();
+  for (int at = row_begin(k); at < row_end(k); ++at)
+    sum += values[static_cast<std::size_t>(at)] *
+           u.row(particles[static_cast<std::size_t>(at)]).transpose();
+  return sum;
+}
+
+Mat3 Samples::deformation_gradient(Index k, const Points& u) const {
+  Mat3 F = Mat3::Identity();
+  for (int at = row_begin(k); at < row_end(k); ++at)
+    F += u.row(particles[static_cast<std::size_t>(at)]).transpose() *
+         gradients[static_cast<std::size_t>(at)].transpose();
+  return F;
+}
+
+Samples sample_field(const MovingLeastSquares<3>& field, const Points& points,
+                     SampleContent content) {
+  const Index chunk_count = (points.rows() + points_per_chunk - 1) / points_per_chunk;
+  std::vector<Chunk> chunks(static_cast<std::size_t>(chunk_count));
+  parallel_chunks(points.rows(), points_per_chunk, [&](Index begin, Index end) {
+    Chunk& chunk = chunks[static_cast<std::size_t>(begin / points_per_chunk)];
+    ShapeFunctions<3> at_x;
+    for (Index k = begin; k < end; ++k)
+      append_row(field, points.row(k).transpose(), content, at_x, chunk);
+  });
+
+  Samples samples;
+  samples.points = points;
+  std::size_t entries = 0;
+  for (const Chunk& chunk : chunks) entries += chunk.particles.size();
+  samples.row_starts.reserve(static_cast<std::size_t>(points.rows()) + 1);
+  samples.particles.reserve(entries);
+  samples.values.reserve(entries);
+  if (content == SampleContent::values_and_gradients) samples.gradients.reserve(entries);
+  for (const Chunk& chunk : chunks) {
+    for (const int size : chunk.row_sizes)
+      samples.row_starts.push_back(samples.row_starts.back() + size);
+    const auto append = [](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(samples.particles, chunk.particles);
+    append(samples.values, chunk.values);
+    append(samples.gradients, chunk.gradients);
+    samples.uncovered += chunk.uncovered;
+    samples.rank_lost += chunk.rank_lost;
+  }
+  return samples;
+}
+
+InversionCount count_inversions(const Samples& samples, const Points& u) {
+  SUPPLE_CHECK(samples.gradients.size() == samples.particles.size(), "gradients were sampled");
+  InversionCount count;
+  for (Index k = 0; k < samples.size(); ++k) {
+    const double J = samples.deformation_gradient(k, u).determinant();
+    count.min_det_F = k == 0 ? J : std::min(count.min_det_F, J);
+    if (!(J > 0)) ++count.inverted;
+  }
+  return count;
+}
+
+}  // namespace supple

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/core/export.h"
+#include "solver/core/types.h"
+#include "solver/field/moving_least_squares.h"
+
+namespace supple {
+
+/// The field's rows at a fixed set of points, built once: φ_j and ∇φ_j of the particles that
+/// reach each point. With them f(x) = x + Σ φ_j u_j and F = I + Σ u_j ∇φ_jᵀ.
+///
+/// A point outside all supports takes the affine map of the particle nearest to it.
+struct SUPPLE_API Samples {
+  Points points;                   ///< x_k [m], n×3
+  std::vector<int> row_starts{0};  ///< n+1 offsets into the arrays below
+  std::vector<int> particles;
+  std::vector<double> values;   ///< φ_j
+  std::vector<Vec3> gradients;  ///< ∇φ_j [1/m]; empty where only values were asked for
+
+  long uncovered = 0;  ///< points outside all supports
+  long rank_lost = 0;  ///< points whose particles do not span the basis
+
+  Index size() const { return points.rows(); }
+  int row_begin(Index k) const { return row_starts[static_cast<std::size_t>(k)]; }
+  int row_end(Index k) const { return row_starts[static_cast<std::size_t>(k) + 1]; }
+
+  /// u(x_k) [m], for particle displacements u [m] N×3.
+  Vec3 displacement(Index k, const Points& u) const;
+  /// f(x_k) = x_k + u(x_k) [m].
+  Vec3 position(Index k, const Points& u) const {
+    return points.row(k).transpose() + displacement(k, u);
+  }
+  /// F(x_k) = I + ∇u(x_k).
+  Mat3 deformation_gradient(Index k, const Points& u) const;
+};
+
+enum class SampleContent { values, values_and_gradients };
+
+/// Builds the rows at `points` [m] n×3, by all threads; the result does not depend on them.
+SUPPLE_API Samples sample_field(const MovingLeastSquares<3>& field, const Points& points,
+                                SampleContent content);
+
+/// The smallest det F over samples with gradients, and how many are ≤ 0.
+struct InversionCount {
+  double min_det_F = 1;
+  long inverted = 0;
+};
+SUPPLE_API InversionCount count_inversions(const Samples& samples, const Points& u);
+
+}  // namespace supple
