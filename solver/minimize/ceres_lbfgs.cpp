@@ -1,0 +1,80 @@
+#include <cmath>
+
+#include <ceres/gradient_problem.h>
+#include <ceres/gradient_problem_solver.h>
+#include <fmt/format.h>
+
+#include "solver/minimize/minimize.h"
+
+namespace supple {
+namespace {
+
+/// E as a function of the preconditioned unknowns y, u = start + Pᵀ L⁻ᵀ y.
+class PreconditionedEnergy final : public ceres::FirstOrderFunction {
+ public:
+  PreconditionedEnergy(const EnergySum& energy, const Preconditioner& preconditioner,
+                       const Points& start)
+      : energy_(energy), preconditioner_(preconditioner), start_(start) {}
+
+  int NumParameters() const override { return static_cast<int>(start_.size()); }
+
+  bool Evaluate(const double* parameters, double* cost, double* gradient) const override {
+    u_ = displacements(parameters);
+    *cost = energy_.evaluate(u_, gradient ? &gradient_ : nullptr);
+    if (!std::isfinite(*cost)) return false;
+    if (gradient) {
+      preconditioner_.to_gradient(gradient_);
+      Eigen::Map<Points>(gradient, start_.rows(), 3) = gradient_;
+    }
+    return true;
+  }
+
+  Points displacements(const double* parameters) const {
+    Points u = Eigen::Map<const Points>(parameters, start_.rows(), 3);
+    preconditioner_.to_displacements(u);
+    return u += start_;
+  }
+
+ private:
+  const EnergySum& energy_;
+  const Preconditioner& preconditioner_;
+  const Points& start_;
+  mutable Points u_, gradient_;
+};
+
+ceres::GradientProblemSolver::Options solver_options(const MinimizeOptions& options) {
+  ceres::GradientProblemSolver::Options ceres_options;
+  ceres_options.line_search_direction_type = ceres::LBFGS;
+  ceres_options.line_search_type = ceres::WOLFE;
+  ceres_options.max_lbfgs_rank = 20;
+  ceres_options.max_num_iterations = options.max_iterations;
+  ceres_options.function_tolerance = options.tolerance;
+  ceres_options.gradient_tolerance = 1e-12;
+  ceres_options.parameter_tolerance = 0;
+  ceres_options.logging_type = ceres::SILENT;
+  return ceres_options;
+}
+
+}  // namespace
+
+Report minimize_lbfgs(const EnergySum& energy, const Preconditioner& preconditioner,
+                      const MinimizeOptions& options, Points& u) {
+  const Points start = u;
+  auto* function = new PreconditionedEnergy(energy, preconditioner, start);
+  const ceres::GradientProblem problem(function);  // owns the function
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(start.size());
+  ceres::GradientProblemSolver::Summary summary;
+  ceres::Solve(solver_options(options), problem, y.data(), &summary);
+
+  Report report;
+  u = function->displacements(y.data());
+  report.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  if (summary.termination_type == ceres::NO_CONVERGENCE)
+    report.degrade({ReasonCode::max_iterations, 1, static_cast<double>(report.iterations),
+                    fmt::format("stopped after {} iterations", report.iterations)});
+  if (summary.termination_type == ceres::FAILURE && !(summary.final_cost <= summary.initial_cost))
+    report.fail({ReasonCode::not_finite, 1, 0, summary.message});
+  return report;
+}
+
+}  // namespace supple

@@ -1,0 +1,137 @@
+#include "solver/minimize/minimize.h"
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "solver/energy/handle.h"
+#include "solver/energy/rigidity.h"
+#include "solver/energy/volume.h"
+#include "solver/field/supports.h"
+#include "tests/support/lattice.h"
+
+namespace supple {
+namespace {
+
+/// A bar along z, held at its foot, its head moved and turned.
+class Bar {
+ public:
+  Bar(double spacing, const Vec3& by, double degrees)
+      : particles_(lattice_particles({0.25, 0.25, 1}, spacing)),
+        field_(particles_.positions,
+               choose_supports(particles_.positions, spacing, particles_.positions).radii),
+        quadrature_(
+            sample_field(field_, particles_.positions, SampleContent::values_and_gradients)),
+        handles_(sample_field(field_, ends(), SampleContent::values)),
+        handle_energy_(targets(by, degrees)),
+        energy_(particles_.size()) {
+    energy_.add(handle_energy_, handles_,
+                Eigen::VectorXd::Constant(handles_.size(), 1.0 / double(handles_.size())), 1e4);
+    energy_.add(rigidity_, quadrature_, particles_.volumes / particles_.volumes.sum(), 1);
+    energy_.add(volume_, quadrature_, particles_.volumes / particles_.volumes.sum(), 1);
+  }
+
+  const EnergySum& energy() const { return energy_; }
+
+ private:
+  static Points ends() {
+    Points points(18, 3);
+    Index row = 0;
+    for (const double z : {0.0, 1.0})
+      for (int x = 0; x < 3; ++x)
+        for (int y = 0; y < 3; ++y) points.row(row++) << 0.125 * x, 0.125 * y, z;
+    return points;
+  }
+
+  static Points targets(const Vec3& by, double degrees) {
+    Points points = ends();
+    const Vec3 center(0.125, 0.125, 1);
+    const Mat3 R = Eigen::AngleAxisd(degrees * EIGEN_PI / 180, Vec3(1, 1, 1).normalized()).matrix();
+    for (Index k = 9; k < 18; ++k)
+      points.row(k) = (center + R * (points.row(k).transpose() - center) + by).transpose();
+    return points;
+  }
+
+  Particles particles_;
+  MovingLeastSquares<3> field_;
+  Samples quadrature_, handles_;
+  HandleEnergy handle_energy_;
+  RigidityEnergy rigidity_;
+  VolumeEnergy volume_;
+  EnergySum energy_;
+};
+
+double total(const Report& report) {
+  double sum = 0;
+  for (const auto& [name, value] : report.energies) sum += value;
+  return sum;
+}
+
+TEST(Minimize, TrustRegionAndLbfgsAgreeOnTenPoses) {
+  Random random(4);
+  for (int pose = 0; pose < 10; ++pose) {
+    const Bar bar(0.09, random.in_cube(-0.25, 0.25), random.uniform(-60, 60));
+    const Preconditioner preconditioner(bar.energy());
+    Points a = Points::Zero(bar.energy().particles(), 3), b = a;
+    MinimizeOptions options;
+    options.tolerance = 1e-7;
+    const Report lbfgs = minimize(bar.energy(), preconditioner, options, a);
+    options.kind = MinimizerKind::trust_region;
+    options.tolerance = 1e-9;
+    const Report reference = minimize(bar.energy(), preconditioner, options, b);
+    EXPECT_EQ(lbfgs.status, Status::ok);
+    EXPECT_EQ(reference.status, Status::ok);
+    EXPECT_NEAR(total(lbfgs), total(reference), 1e-3 * total(reference)) << "pose " << pose;
+  }
+}
+
+TEST(Minimize, SparseAndDensePreconditionersServeTheSameMinimum) {
+  const Bar bar(0.05, {0.1, 0, 0}, 30);  // 500 particles: sparse
+  ASSERT_GT(bar.energy().particles(), 400);
+  const Preconditioner preconditioner(bar.energy());
+  Points u = Points::Zero(bar.energy().particles(), 3), gradient;
+  const Report report = minimize(bar.energy(), preconditioner, {.tolerance = 1e-8}, u);
+  EXPECT_EQ(report.status, Status::ok);
+  EXPECT_LT(report.iterations, 300);
+  Points start_gradient;
+  bar.energy().evaluate(Points::Zero(u.rows(), 3), &start_gradient);
+  bar.energy().evaluate(u, &gradient);
+  EXPECT_LT(gradient.norm(), 2e-3 * start_gradient.norm());
+}
+
+TEST(Minimize, DoesNothingAtAMinimum) {
+  const Bar bar(0.12, Vec3::Zero(), 0);
+  const Preconditioner preconditioner(bar.energy());
+  Points u = Points::Zero(bar.energy().particles(), 3);
+  const Report report = minimize(bar.energy(), preconditioner, {}, u);
+  EXPECT_EQ(report.status, Status::ok);
+  EXPECT_LE(report.iterations, 1);
+  EXPECT_EQ(u.norm(), 0);
+}
+
+TEST(Minimize, ReportsTheIterationLimit) {
+  const Bar bar(0.12, {0.3, 0, 0}, 90);
+  const Preconditioner preconditioner(bar.energy());
+  Points u = Points::Zero(bar.energy().particles(), 3);
+  const Report report = minimize(bar.energy(), preconditioner, {.max_iterations = 2}, u);
+  EXPECT_EQ(report.status, Status::degraded);
+  ASSERT_FALSE(report.reasons.empty());
+  EXPECT_EQ(report.reasons[0].code, ReasonCode::max_iterations);
+}
+
+TEST(Minimize, FailsOnAStartThatIsNotFinite) {
+  const Bar bar(0.12, {0.3, 0, 0}, 0);
+  const Preconditioner preconditioner(bar.energy());
+  Points u = Points::Zero(bar.energy().particles(), 3);
+  u(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  const Report report = minimize(bar.energy(), preconditioner, {}, u);
+  EXPECT_EQ(report.status, Status::failed);
+}
+
+TEST(Report, IsBornNotRun) {
+  EXPECT_EQ(Report().status, Status::not_run);
+}
+
+}  // namespace
+}  // namespace supple
