@@ -1,0 +1,108 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "io/scene/quantity.h"
+#include "io/scene/selection.h"
+#include "solver/core/describe.h"
+#include "solver/minimize/minimize_options.h"
+
+namespace supple {
+
+/// A turn about the selection's centre, unless `about` is given; beyond 180° it counts as given.
+struct TurnSpec {
+  Vec3 axis = Vec3::UnitZ();
+  double degrees = 0;
+  std::optional<LengthVector> about;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("axis", self.axis, {.doc = "axis of the turn, any length but 0"});
+    visit("degrees", self.degrees,
+          {.doc = "angle, counter-clockwise seen against the axis; needed", .unit = "°"});
+    visit("about", self.about,
+          {.doc = "point on the axis instead of the selection's centre", .unit = "length"});
+  }
+};
+
+/// A part of the surface that is held, or led to another place.
+struct HandleSpec {
+  Place place;
+  std::optional<Selection> fix;  ///< exactly one of fix and move is given
+  std::optional<Selection> move;
+  LengthVector by{};
+  std::optional<TurnSpec> turn;
+  Vec3 scale = Vec3::Ones();  ///< about the selection's centre
+  double weight = 1;
+
+  const Selection& selection() const { return fix ? *fix : *move; }
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("fix", self.fix, {.doc = "part of the surface that stays where it is"});
+    visit("move", self.move, {.doc = "part of the surface that is led to another place"});
+    visit("by", self.by, {.doc = "displacement of what is moved", .unit = "length"});
+    visit("turn", self.turn, {.doc = "turn of what is moved"});
+    visit("scale", self.scale,
+          {.doc = "stretch of what is moved along x, y, z, about its centre",
+           .unit = factor_unit,
+           .min = 0,
+           .exclusive_min = true});
+    visit("weight", self.weight,
+          {.doc = "weight relative to the other handles", .min = 0, .exclusive_min = true});
+  }
+};
+
+/// Weights of the pose energies, dimensionless (Adams & Wicke 2009, Eq. 78).
+struct PoseWeights {
+  double handles = 1e4;
+  double rigidity = 1;
+  double volume = 1;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("handles", self.handles,
+          {.doc = "weight of the handles", .min = 0, .exclusive_min = true});
+    visit("rigidity", self.rigidity,
+          {.doc = "weight of local shape", .min = 0, .exclusive_min = true});
+    visit("volume", self.volume,
+          {.doc = "weight of local volume; 0 leaves the term out", .min = 0});
+  }
+};
+
+enum class SurfaceKind { field, particle_gradients };
+EnumNames<SurfaceKind> enum_names(SurfaceKind);
+
+/// One pose: handles and what the rest of the shape should keep.
+struct PoseSpec {
+  Place place;
+  std::vector<HandleSpec> handles;
+  PoseWeights weights;
+  MinimizerKind solver = MinimizerKind::lbfgs;
+  bool hard_handles = false;
+  int max_iterations = 2000;
+  double tolerance = 1e-6;
+  std::optional<int> substeps;
+  SurfaceKind surface = SurfaceKind::field;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("handles", self.handles, {.doc = "parts of the surface that are fixed or moved"});
+    visit("weights", self.weights, {.doc = "weights of the energies"});
+    visit("solver", self.solver, {.doc = "minimiser"});
+    visit("hard_handles", self.hard_handles,
+          {.doc = "true: handles are met exactly (not available yet)"});
+    visit("max_iterations", self.max_iterations,
+          {.doc = "limit for one solve", .min = 1, .max = 1e6});
+    visit("tolerance", self.tolerance,
+          {.doc = "relative change of energy at which a solve stops", .min = 1e-15, .max = 0.1});
+    visit("substeps", self.substeps,
+          {.doc = "steps on the handles' way; default: as their turns and moves need",
+           .min = 1,
+           .max = 10000});
+    visit("surface", self.surface, {.doc = "how the surface follows the particles"});
+  }
+};
+
+}  // namespace supple

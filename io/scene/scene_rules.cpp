@@ -1,0 +1,77 @@
+#include "io/scene/scene_rules.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "io/scene/complaint.h"
+
+namespace supple {
+namespace {
+
+[[noreturn]] void refuse_for_now(const SceneItem& item, std::string_view key,
+                                 std::string_view value) {
+  const SceneItem refused = *find_item(item, key);
+  complain(refused.place, fmt::format("{}: {} is not available yet", refused.path, value));
+}
+
+}  // namespace
+
+std::span<const std::string_view> later_keys(const Scene&) {
+  static constexpr std::array<std::string_view, 2> keys{"motion", "simulate"};
+  return keys;
+}
+
+std::span<const std::string_view> later_keys(const ShapeSpec&) {
+  static constexpr std::array<std::string_view, 3> keys{"points", "box", "target_error"};
+  return keys;
+}
+
+std::span<const std::string_view> later_keys(const PoseSpec&) {
+  static constexpr std::array<std::string_view, 2> keys{"region", "stiffness"};
+  return keys;
+}
+
+void check_rules(const Scene& scene, const SceneItem& item) {
+  if (scene.pose && !find_item(item, "shape"))
+    complain(scene.pose->place, "shape is missing: a pose needs shape: {mesh: file}");
+}
+
+void check_rules(const ShapeSpec& shape, const SceneItem& item) {
+  if (shape.mesh.empty()) complain(shape.place, "shape.mesh is missing: the file with the mesh");
+  if (shape.particles && shape.spacing)
+    complain(find_item(item, "spacing")->place,
+             "shape.spacing: shape.particles is given too; allowed: one of them");
+  if (shape.quadrature == QuadratureKind::cells) refuse_for_now(item, "quadrature", "cells");
+}
+
+void check_rules(const PoseSpec& pose, const SceneItem& item) {
+  if (pose.handles.empty())
+    complain(pose.place, "pose.handles is missing: a pose needs at least one handle");
+  if (pose.hard_handles) refuse_for_now(item, "hard_handles", "true");
+}
+
+void check_rules(const HandleSpec& handle, const SceneItem& item) {
+  if (!handle.fix && !handle.move)
+    complain(item.place,
+             fmt::format("{}: fix or move is missing; allowed: one of them", item.path));
+  if (handle.fix && handle.move)
+    complain(find_item(item, "move")->place,
+             fmt::format("{}: fix and move are both given; allowed: one of them", item.path));
+  if (!handle.fix) return;
+  for (const std::string_view key : {"by", "turn", "scale"})
+    if (const auto movement = find_item(item, key))
+      complain(movement->place, fmt::format("{} stands beside fix, which holds its part in "
+                                            "place; allowed: only with move",
+                                            movement->path));
+}
+
+void check_rules(const TurnSpec& turn, const SceneItem& item) {
+  if (!find_item(item, "degrees"))
+    complain(item.place, fmt::format("{}.degrees is missing", item.path));
+  if (turn.axis.squaredNorm() == 0)
+    complain(find_item(item, "axis")->place,
+             fmt::format("{}.axis = 0, must have a length", item.path));
+}
+
+}  // namespace supple

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "io/scene/quantity.h"
+#include "solver/core/describe.h"
+#include "solver/field/moving_least_squares_options.h"
+
+namespace supple {
+
+enum class QuadratureKind { automatic, particles, cells };
+EnumNames<QuadratureKind> enum_names(QuadratureKind);
+
+/// What one unit of a mesh file's coordinates, and of lengths without a percent, stands for.
+enum class FileUnit { metre, centimetre, millimetre, inch };
+EnumNames<FileUnit> enum_names(FileUnit);
+
+/// What is to be deformed, and how finely.
+struct ShapeSpec {
+  Place place;
+  std::string mesh;  ///< path, relative to the scene file
+  FileUnit units = FileUnit::metre;
+  std::optional<int> particles;  ///< not together with spacing
+  std::optional<Length> spacing;
+  std::optional<Length> size;  ///< scales to this bounding-box diagonal, centred
+  BasisOrder basis = BasisOrder::linear;
+  KernelKind kernel = KernelKind::polynomial;
+  QuadratureKind quadrature = QuadratureKind::automatic;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("mesh", self.mesh, {.doc = "triangle or polygon mesh: OBJ, PLY, OFF, STL"});
+    visit("units", self.units,
+          {.doc = "unit of the mesh file and of lengths; a pose is the same "
+                  "in all"});
+    visit("particles", self.particles,
+          {.doc = "number of particles that carry the field (default 200)", .min = 1, .max = 1e6});
+    visit("spacing", self.spacing,
+          {.doc = "distance of neighbouring particles, instead of their number",
+           .unit = "length",
+           .min = 0,
+           .exclusive_min = true});
+    visit("size", self.size,
+          {.doc = "scale the shape to this bounding-box diagonal and centre it",
+           .unit = "length",
+           .min = 0,
+           .exclusive_min = true});
+    visit("basis", self.basis, {.doc = "polynomials that the field reproduces exactly"});
+    visit("kernel", self.kernel, {.doc = "weight function of the moving least squares"});
+    visit("quadrature", self.quadrature,
+          {.doc = "where energies are sampled (cells: not available yet)"});
+  }
+};
+
+}  // namespace supple
