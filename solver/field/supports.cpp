@@ -1,13 +1,11 @@
 #include "solver/field/supports.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "solver/core/parallel.h"
-#include "solver/field/neighbors.h"
 
 namespace supple {
 namespace {
@@ -15,82 +13,93 @@ namespace {
 /// A particle should reach a little beyond what it must cover: at its very rim its weight is 0.
 constexpr double reach_share = 0.9;
 
-/// Smallest standard deviation of the particles' positions, over any direction [m].
-double least_deviation(const Points& particles, const std::vector<int>& chosen) {
-  Vec3 mean = Vec3::Zero();
-  for (const int i : chosen) mean += particles.row(i).transpose();
-  mean /= static_cast<double>(chosen.size());
-  Mat3 scatter = Mat3::Zero();
-  for (const int i : chosen) {
-    const Vec3 d = particles.row(i).transpose() - mean;
-    scatter += d * d.transpose();
+constexpr Index points_per_chunk = 256;
+
+/// h_i ← max_j (h_j − smoothness·|x_i − x_j|).
+void smooth(const Points& particles, double usual, double smoothness, Eigen::VectorXd& radii) {
+  const Eigen::VectorXd grown = radii;
+  for (Index j = 0; j < grown.size(); ++j) {
+    if (grown[j] <= usual) continue;
+    const Eigen::VectorXd distances = (particles.rowwise() - particles.row(j)).rowwise().norm();
+    radii = radii.cwiseMax((grown[j] - smoothness * distances.array()).matrix());
   }
-  scatter /= static_cast<double>(chosen.size());
-  const double least = Eigen::SelfAdjointEigenSolver<Mat3>(scatter).eigenvalues()[0];
-  return std::sqrt(std::max(0.0, least));
 }
 
-/// What one point asks of the particles near it.
+/// A covered point that asks for wider supports around it.
 struct Demand {
-  std::vector<int> particles;
-  double radius = 0;
-  bool thin = false;
+  Index point;
+  double radius;  ///< of the supports around it [m]
 };
 
-/// The nearest particles that are enough and in general position, and the radius that reaches
-/// the point from each of them.
-Demand demand_at(const Vec3& x, const Points& particles, const Neighbors<3>& tree,
-                 const SupportOptions& options) {
-  const std::vector<int> near = tree.nearest(x, options.most_neighbors);
-  std::size_t count = std::min<std::size_t>(near.size(), options.least_neighbors);
-  Demand demand;
-  for (;; count = std::min(near.size(), count + 4)) {
-    demand.particles.assign(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count));
-    const double distance = (particles.row(demand.particles.back()).transpose() - x).norm();
-    demand.radius = distance / reach_share;
-    if (least_deviation(particles, demand.particles) >= options.least_spread * demand.radius)
-      return demand;
-    if (count == near.size()) break;
+/// Widens the supports of all particles that shall reach a demand's point.
+void meet(const std::vector<Demand>& demands, const Points& cover, const Points& particles,
+          Eigen::VectorXd& radii) {
+  for (const Demand& demand : demands) {
+    const double reach = reach_share * demand.radius;
+    for (Index i = 0; i < particles.rows(); ++i)
+      if ((particles.row(i) - cover.row(demand.point)).squaredNorm() <= reach * reach)
+        radii[i] = std::max(radii[i], demand.radius);
   }
-  demand.thin = true;
-  demand.particles.resize(std::min<std::size_t>(near.size(), options.least_neighbors));
-  demand.radius = (particles.row(demand.particles.back()).transpose() - x).norm() / reach_share;
-  return demand;
 }
 
-/// h_i ← max_j (h_j − slope·|x_i − x_j|).
-void smooth(const Points& particles, double slope, Eigen::VectorXd& radii) {
-  const Eigen::VectorXd grown = radii;
-  const double least = grown.minCoeff();
-  for (Index j = 0; j < grown.size(); ++j) {
-    if (grown[j] == least) continue;
-    const Eigen::VectorXd distances = (particles.rowwise() - particles.row(j)).rowwise().norm();
-    radii = radii.cwiseMax((grown[j] - slope * distances.array()).matrix());
-  }
+/// Demands of the points with fewer particles near than they need.
+std::vector<Demand> sparse_points(const Points& particles, const Points& cover, double usual,
+                                  const SupportOptions& options) {
+  const Neighbors<3> tree(particles, Eigen::VectorXd::Constant(particles.rows(), usual));
+  Eigen::VectorXd needed(cover.rows());
+  parallel_chunks(cover.rows(), points_per_chunk, [&](Index begin, Index end) {
+    for (Index k = begin; k < end; ++k) {
+      const Vec3 x = cover.row(k).transpose();
+      const int farthest = tree.nearest(x, options.least_neighbors).back();
+      needed[k] = (particles.row(farthest).transpose() - x).norm() * (1 + 1e-12) / reach_share;
+    }
+  });
+  std::vector<Demand> demands;
+  for (Index k = 0; k < cover.rows(); ++k)
+    if (needed[k] > usual) demands.push_back({k, needed[k]});
+  return demands;
+}
+
+/// Those of `points` whose shape functions are too steep, or span too little.
+std::vector<Demand> steep_points(const MovingLeastSquares<3>& field, const Points& cover,
+                                 const std::vector<Demand>& points, double most_slope) {
+  std::vector<char> steep(points.size());
+  parallel_chunks(static_cast<Index>(points.size()), points_per_chunk, [&](Index begin, Index end) {
+    ShapeFunctions<3> at_x;
+    for (Index k = begin; k < end; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      field.evaluate(cover.row(points[at].point).transpose(), Derivatives::first, at_x);
+      steep[at] = at_x.rank < MovingLeastSquares<3>::basis_size(BasisOrder::linear) ||
+                  at_x.gradients.rowwise().norm().sum() > most_slope;
+    }
+  });
+  std::vector<Demand> demands;
+  for (std::size_t at = 0; at < points.size(); ++at)
+    if (steep[at]) demands.push_back(points[at]);
+  return demands;
 }
 
 }  // namespace
 
 Supports choose_supports(const Points& particles, double spacing, const Points& cover,
-                         const SupportOptions& options) {
+                         KernelKind kernel, const SupportOptions& options) {
   const double usual = spacing * std::cbrt(options.neighbors * 3 / (4 * std::numbers::pi));
   Supports supports;
   supports.radii = Eigen::VectorXd::Constant(particles.rows(), usual);
-  const Neighbors<3> tree(particles, supports.radii);
+  meet(sparse_points(particles, cover, usual, options), cover, particles, supports.radii);
+  smooth(particles, usual, options.smoothness, supports.radii);
 
-  std::vector<Demand> demands(static_cast<std::size_t>(cover.rows()));
-  parallel_chunks(cover.rows(), 256, [&](Index begin, Index end) {
-    for (Index k = begin; k < end; ++k)
-      demands[static_cast<std::size_t>(k)] =
-          demand_at(cover.row(k).transpose(), particles, tree, options);
-  });
-  for (const Demand& demand : demands) {
-    if (demand.thin) ++supports.thin;
-    if (demand.radius <= usual) continue;
-    for (const int i : demand.particles)
-      supports.radii[i] = std::max(supports.radii[i], demand.radius);
+  std::vector<Demand> demands;
+  for (Index k = 0; k < cover.rows(); ++k) demands.push_back({k, usual});
+  for (int round = 0; round <= options.rounds && !demands.empty(); ++round) {
+    const MovingLeastSquares<3> field(particles, supports.radii, {BasisOrder::linear, kernel});
+    demands = steep_points(field, cover, demands, options.most_slope / usual);
+    if (round == options.rounds) break;
+    for (Demand& demand : demands) demand.radius *= options.growth;
+    meet(demands, cover, particles, supports.radii);
+    smooth(particles, usual, options.smoothness, supports.radii);
   }
-  smooth(particles, options.slope, supports.radii);
+  supports.thin = static_cast<long>(demands.size());
   return supports;
 }
 
