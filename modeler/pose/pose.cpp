@@ -1,0 +1,213 @@
+#include "modeler/pose/pose.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "modeler/domain/closed_region.h"
+#include "modeler/plan/plan.h"
+#include "modeler/pose/handles.h"
+#include "modeler/pose/pose_solver.h"
+#include "modeler/pose/solid.h"
+#include "modeler/surface/deform_mesh.h"
+
+namespace supple {
+namespace {
+
+/// Names the stages to the progress, and keeps their times for the report.
+class Stages {
+ public:
+  Stages(const Progress& progress, Report& report) : progress_(progress), report_(report) {}
+
+  template <class Work>
+  auto run(const std::string& name, const Work& work) {
+    name_ = name;
+    advance(0);
+    const auto start = std::chrono::steady_clock::now();
+    const struct Stop {
+      Stages& stages;
+      decltype(start) begin;
+      ~Stop() {
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+        stages.report_.seconds.emplace_back(stages.name_, taken.count());
+      }
+    } stop{*this, start};
+    return work();
+  }
+
+  /// Says how much of the stage is done.
+  void advance(double share) {
+    if (progress_ && !progress_(name_, share))
+      throw Interrupted(fmt::format("stopped while at \"{}\"", name_));
+  }
+
+ private:
+  const Progress& progress_;
+  Report& report_;
+  std::string name_;
+};
+
+/// The field over a solid's particles, and its samples at them: they are the quadrature too.
+struct SolidField {
+  MovingLeastSquares<3> mls;
+  Samples quadrature;
+  SurfaceEmbedding surface;
+
+  SolidField(const Solid& solid, const ShapeSpec& shape, SurfaceKind surface_kind)
+      : mls(solid.particles().positions, solid.particles().supports, {shape.basis, shape.kernel}),
+        quadrature(
+            sample_field(mls, solid.particles().positions, SampleContent::values_and_gradients)),
+        surface(mls, quadrature, solid.vertices(), surface_kind) {}
+  SolidField(const SolidField&) = delete;
+};
+
+HandleSamples choose_handles(const Mesh& mesh, const Solid& solid, const Scene& scene) {
+  const SelectionContext selection{mesh, solid.triangulation(), solid.box(), scene.folder};
+  const HandleContext context{selection, solid.surface(), solid.origin(), solid.unit(),
+                              0.5 * solid.particles().spacing * solid.unit()};
+  return {make_handles(scene.pose->handles, context), solid.scaled(solid.surface().positions)};
+}
+
+Report solve(const Solid& solid, const SolidField& field, const HandleSamples& handles,
+             const PoseSpec& spec, Stages& stages, PoseResult& result, Points& u) {
+  PoseSolver solver(solid.particles(), field.mls, field.quadrature, handles, spec.weights);
+  const MinimizeOptions options{spec.solver, spec.max_iterations, spec.tolerance};
+  const int substeps = spec.substeps.value_or(substeps_needed(handles, solid.particles().size()));
+  const auto start = std::chrono::steady_clock::now();
+  Report report = solver.solve(
+      options, substeps, [&](double share) { stages.advance(share); }, u);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  for (const auto& [name, share] : solver.time_shares(u))
+    for (Effect& effect : result.effects)
+      if (effect.name == name) effect.seconds = share * taken.count();
+  report.notes.push_back(
+      fmt::format("handles walked in {} step{}", substeps, substeps == 1 ? "" : "s"));
+  return report;
+}
+
+/// Misses of the handles over all their surface samples, over the diagonal.
+void measure_handles(const Solid& solid, const SolidField& field, const HandleSamples& handles,
+                     const Points& u, PoseResult& result) {
+  const Points points = solid.scaled(solid.surface().positions);
+  double all_squares = 0;
+  long all_samples = 0;
+  for (const PoseHandle& handle : handles.handles()) {
+    Points rest(static_cast<Index>(handle.selected.size()), 3);
+    for (std::size_t k = 0; k < handle.selected.size(); ++k)
+      rest.row(static_cast<Index>(k)) = points.row(handle.selected[k]);
+    const Samples samples = sample_field(field.mls, rest, SampleContent::values);
+    HandleResidual residual{handle.spec->place, handle.spec->selection().text,
+                            static_cast<int>(rest.rows()), 0, 0};
+    double squares = 0;
+    for (Index k = 0; k < rest.rows(); ++k) {
+      const double miss = (samples.position(k, u) - handle.path(rest.row(k).transpose(), 1)).norm();
+      residual.max_error = std::max(residual.max_error, miss);
+      squares += miss * miss;
+    }
+    residual.rms_error = std::sqrt(squares / static_cast<double>(rest.rows()));
+    result.handle_max_error = std::max(result.handle_max_error, residual.max_error);
+    all_squares += squares;
+    all_samples += rest.rows();
+    result.handles.push_back(std::move(residual));
+  }
+  if (all_samples > 0)
+    result.handle_rms_error = std::sqrt(all_squares / static_cast<double>(all_samples));
+}
+
+/// The smallest det F over particles and the surface's vertices, and how many are not positive.
+InversionCount worst_inversion(const Solid& solid, const SolidField& field, const Points& u,
+                               const DeformedSurface& surface) {
+  InversionCount worst = count_inversions(field.quadrature, u);
+  for (std::size_t i = 0; i < surface.gradients.size(); ++i) {
+    if (!solid.used_vertices()[i]) continue;
+    const double J = surface.gradients[i].determinant();
+    worst.min_det_F = std::min(worst.min_det_F, J);
+    if (!(J > 0)) ++worst.inverted;
+  }
+  return worst;
+}
+
+void judge(const Solid& solid, const SolidField& field, const InversionCount& inversion,
+           PoseResult& result) {
+  Report& report = result.report;
+  if (inversion.inverted > 0)
+    report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
+                    fmt::format("{} points are turned inside out, the worst with det F = {:.3g}",
+                                inversion.inverted, inversion.min_det_F)});
+  if (result.handle_max_error > reason_limit(ReasonCode::handle_miss))
+    report.degrade({ReasonCode::handle_miss, 1, result.handle_max_error,
+                    fmt::format("a handle misses its place by {:.2g} % of the diagonal",
+                                100 * result.handle_max_error)});
+  const double sampled = static_cast<double>(field.quadrature.size() + solid.vertices().rows());
+  const long lost = field.quadrature.rank_lost + field.surface.rank_lost();
+  if (static_cast<double>(lost) > reason_limit(ReasonCode::rank_lost) * sampled)
+    report.degrade({ReasonCode::rank_lost, lost, static_cast<double>(lost) / sampled,
+                    fmt::format("at {} points the particles near do not span the field's basis; "
+                                "more particles help",
+                                lost)});
+  if (!result.mesh.positions.allFinite())
+    report.fail({ReasonCode::not_finite, 1, 0, "a deformed vertex is not finite"});
+  report.finish();
+}
+
+}  // namespace
+
+PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) {
+  PoseResult result;
+  Report timing;
+  Stages stages(progress, timing);
+  const PoseSpec& spec = *scene.pose;
+  result.effects = make_plan(scene).effects;
+
+  result.rest = sized(mesh, scene.shape);
+  Solid solid = stages.run("sample", [&] { return Solid(result.rest, scene.shape); });
+  const HandleSamples handles = choose_handles(result.rest, solid, scene);
+  double thin_share = 0;
+  const std::unique_ptr<const SolidField> field = stages.run("field", [&] {
+    thin_share = solid.choose_particle_supports(scene.shape.kernel);
+    return std::make_unique<const SolidField>(solid, scene.shape, spec.surface);
+  });
+
+  Points u = Points::Zero(solid.particles().size(), 3);
+  if (handles.empty())
+    result.report.notes.push_back("no handles: the shape stays as it is");
+  else
+    result.report =
+        stages.run("solve", [&] { return solve(solid, *field, handles, spec, stages, result, u); });
+
+  const DeformedSurface surface =
+      stages.run("deform", [&] { return field->surface.deform(u, solid.particles().volumes); });
+  result.mesh = deform_mesh(result.rest, surface);
+  // Added to the input rather than replacing it: what did not move keeps its last bit.
+  result.mesh.positions =
+      result.rest.positions + solid.unit() * (surface.positions - solid.vertices());
+
+  result.particles = solid.particles();
+  result.particles.positions = solid.restored(solid.particles().positions);
+  result.particles.supports *= solid.unit();
+  result.particles.volumes *= std::pow(solid.unit(), 3);
+  result.particles.spacing *= solid.unit();
+  result.displacements = solid.unit() * u;
+  result.handle_rest = solid.restored(handles.rest());
+  result.handle_targets = solid.restored(handles.targets(1));
+  result.volume_before = signed_volume(result.rest.positions, solid.triangulation().triangles);
+  result.volume_after = signed_volume(result.mesh.positions, solid.triangulation().triangles);
+  measure_handles(solid, *field, handles, u, result);
+
+  const InversionCount inversion = worst_inversion(solid, *field, u, surface);
+  result.min_det_F = inversion.min_det_F;
+  result.report.seconds = timing.seconds;
+  result.report.notes.insert(result.report.notes.end(), solid.notes().begin(), solid.notes().end());
+  if (thin_share > reason_limit(ReasonCode::thin))
+    result.report.degrade({ReasonCode::thin, 1, thin_share,
+                           fmt::format("{:.0f} % of the surface is thinner than the particles can "
+                                       "follow; more particles help",
+                                       100 * thin_share)});
+  judge(solid, *field, inversion, result);
+  return result;
+}
+
+}  // namespace supple

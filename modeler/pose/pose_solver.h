@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+
+#include "modeler/pose/handles.h"
+#include "solver/core/report.h"
+#include "solver/core/rest_shape.h"
+#include "solver/energy/energy_sum.h"
+#include "solver/energy/handle.h"
+#include "solver/energy/rigidity.h"
+#include "solver/energy/volume.h"
+
+namespace supple {
+
+/// The pose energy of one shape, E = λ1 E_handles + λ2 E_rigidity + λ3 E_volume
+/// (Adams & Wicke 2009, Eq. 78), and the way to its minimum.
+class PoseSolver {
+ public:
+  /// `quadrature` are samples with gradients at the particles; all of it outlives the solver.
+  PoseSolver(const Particles& particles, const MovingLeastSquares<3>& field,
+             const Samples& quadrature, const HandleSamples& handles, const PoseWeights& weights);
+  PoseSolver(const PoseSolver&) = delete;
+  PoseSolver& operator=(const PoseSolver&) = delete;
+
+  /// Walks the handles from rest to their places in `substeps` steps, each starting from the one
+  /// before; `u` [N×3] holds the pose then. `on_step` is told the share done.
+  Report solve(const MinimizeOptions& options, int substeps,
+               const std::function<void(double share)>& on_step, Points& u);
+
+  const Samples& handle_samples() const { return handle_samples_; }
+
+  /// How much of one evaluation's time each term takes, by its name; the shares sum to 1.
+  std::vector<std::pair<std::string, double>> time_shares(const Points& u) const;
+
+ private:
+  /// Moves `u` along with the handles as one body where that is nearer to the new minimum.
+  void predict(const Points& targets_before, const Points& targets, Points& u) const;
+
+  const Particles& particles_;
+  const HandleSamples& handles_;
+  Samples handle_samples_;
+  HandleEnergy handle_energy_;
+  RigidityEnergy rigidity_;
+  VolumeEnergy volume_;
+  EnergySum energy_;
+};
+
+}  // namespace supple

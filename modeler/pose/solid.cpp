@@ -1,0 +1,95 @@
+#include "modeler/pose/solid.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "modeler/domain/closed_region.h"
+#include "modeler/domain/sample_particles.h"
+#include "modeler/domain/shape_error.h"
+#include "solver/field/supports.h"
+
+namespace supple {
+namespace {
+
+constexpr int default_particles = 200;
+
+/// Surface samples are no wider than this share of the particles' spacing.
+constexpr double sample_width_over_spacing = 0.5;
+
+std::vector<bool> vertices_of_faces(const Mesh& mesh) {
+  std::vector<bool> used(static_cast<std::size_t>(mesh.positions.rows()), false);
+  for (const int vertex : mesh.face_vertices) used[static_cast<std::size_t>(vertex)] = true;
+  return used;
+}
+
+ParticleSamplingOptions sampling_options(const ShapeSpec& spec, double diagonal, double unit) {
+  ParticleSamplingOptions options;
+  options.count = spec.particles.value_or(default_particles);
+  if (spec.spacing) options.spacing = resolve(*spec.spacing, diagonal) / unit;
+  return options;
+}
+
+}  // namespace
+
+Mesh sized(const Mesh& mesh, const ShapeSpec& spec) {
+  if (!spec.size) return mesh;
+  const Box box = bounding_box(mesh.positions);
+  const double scale = resolve(*spec.size, box.diagonal()) / box.diagonal();
+  Mesh sized = mesh;
+  sized.positions = (mesh.positions.rowwise() - box.center().transpose()) * scale;
+  return sized;
+}
+
+Solid::Solid(const Mesh& mesh, const ShapeSpec& spec)
+    : triangulation_(triangulate(mesh)),
+      box_(bounding_box(mesh.positions)),
+      origin_(box_.center().transpose()),
+      unit_(box_.diagonal()),
+      used_(vertices_of_faces(mesh)) {
+  if (triangulation_.triangles.rows() == 0)
+    throw ShapeError(
+        "the shape has no faces, so it encloses no solid; point clouds cannot be posed yet");
+  if (!(unit_ > 0)) throw ShapeError("all vertices of the shape lie at one place");
+  vertices_ = scaled(mesh.positions);
+  sample(spec);
+  surface_ = sample_surface(mesh.positions, triangulation_.triangles,
+                            sample_width_over_spacing * particles_.spacing * unit_);
+}
+
+void Solid::sample(const ShapeSpec& spec) {
+  const ClosedRegion region(vertices_, triangulation_.triangles);
+  const SurfaceDefects& defects = region.defects();
+  if (defects.inside_out)
+    notes_.push_back("the faces point inwards; read as if they pointed outwards");
+  if (defects.degenerate_faces > 0)
+    notes_.push_back(
+        fmt::format("{} faces without area do not bound the solid", defects.degenerate_faces));
+  const long unused = std::count(used_.begin(), used_.end(), false);
+  if (unused > 0)
+    notes_.push_back(fmt::format("{} vertices that no face uses follow the solid", unused));
+  particles_ = sample_particles(region, sampling_options(spec, unit_, unit_)).particles;
+}
+
+double Solid::choose_particle_supports(KernelKind kernel) {
+  std::vector<int> all(static_cast<std::size_t>(surface_.size()));
+  std::iota(all.begin(), all.end(), 0);
+  const ThinnedSamples thinned =
+      thin_samples(surface_, all, sample_width_over_spacing * particles_.spacing * unit_);
+  const long used = std::count(used_.begin(), used_.end(), true);
+
+  Points cover(particles_.size() + used + static_cast<Index>(thinned.indices.size()), 3);
+  cover.topRows(particles_.size()) = particles_.positions;
+  Index row = particles_.size();
+  for (std::size_t i = 0; i < used_.size(); ++i)
+    if (used_[i]) cover.row(row++) = vertices_.row(static_cast<Index>(i));
+  for (const int k : thinned.indices)
+    cover.row(row++) = (surface_.positions.row(k) - origin_) / unit_;
+
+  Supports supports = choose_supports(particles_.positions, particles_.spacing, cover, kernel);
+  particles_.supports = std::move(supports.radii);
+  return static_cast<double>(supports.thin) / static_cast<double>(cover.rows());
+}
+
+}  // namespace supple

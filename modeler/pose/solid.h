@@ -1,0 +1,53 @@
+#pragma once
+
+#include "io/mesh/mesh.h"
+#include "io/scene/shape_spec.h"
+#include "modeler/domain/surface_samples.h"
+#include "solver/core/rest_shape.h"
+#include "solver/field/samples.h"
+
+namespace supple {
+
+/// A shape made ready for posing: scaled to a diagonal of 1 about its box's centre, so that
+/// nothing depends on units or on where it lies, filled with particles, and with a field.
+class Solid {
+ public:
+  /// `mesh` bounds a solid. Errors: ShapeError.
+  Solid(const Mesh& mesh, const ShapeSpec& spec);
+
+  /// From the user's coordinates to ours and back.
+  Points scaled(const Points& points) const { return (points.rowwise() - origin_) / unit_; }
+  Points restored(const Points& points) const { return (points * unit_).rowwise() + origin_; }
+
+  const Triangulation& triangulation() const { return triangulation_; }
+  const Box& box() const { return box_; }  ///< in the user's coordinates
+  const Points& vertices() const { return vertices_; }
+  const std::vector<bool>& used_vertices() const { return used_; }
+  const SurfaceSamples& surface() const { return surface_; }  ///< in the user's coordinates
+  const Particles& particles() const { return particles_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+  Vec3 origin() const { return origin_.transpose(); }
+  double unit() const { return unit_; }
+
+  /// Fixes the particles' supports so that they reach everything that is to be covered.
+  /// Returns the share of covered points whose particles lie near a plane or a line.
+  double choose_particle_supports(KernelKind kernel);
+
+ private:
+  void sample(const ShapeSpec& spec);
+
+  Triangulation triangulation_;
+  Box box_;
+  Eigen::RowVector3d origin_;
+  double unit_;
+  Points vertices_;
+  std::vector<bool> used_;
+  SurfaceSamples surface_;
+  Particles particles_;
+  std::vector<std::string> notes_;
+};
+
+/// `mesh` scaled and centred as `spec.size` asks, or as it is.
+Mesh sized(const Mesh& mesh, const ShapeSpec& spec);
+
+}  // namespace supple

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "io/mesh/mesh.h"
+#include "modeler/surface/surface_embedding.h"
+
+namespace supple {
+
+/// A normal carried by the deformation: n' = cof(F) n with the length it had; the zero vector
+/// where F flattens it away (Adams & Wicke 2009, section 7.2; errata).
+Vec3 carry_normal(const Mat3& F, const Vec3& normal);
+
+/// `mesh` with deformed vertices and normals; faces, UVs, colours, groups stay as they are.
+/// A normal shared by several vertices that turn differently is split.
+Mesh deform_mesh(const Mesh& mesh, const DeformedSurface& surface);
+
+}  // namespace supple

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "io/scene/pose_spec.h"
+#include "solver/field/blocked_field.h"
+#include "solver/field/samples.h"
+
+namespace supple {
+
+/// A deformed surface: its vertices and the deformation gradient at each.
+struct DeformedSurface {
+  Points positions;             ///< [m], n×3
+  std::vector<Mat3> gradients;  ///< F, n
+};
+
+/// Vertices tied to a field once, so that they follow the particles of every frame.
+///
+/// SurfaceKind::field evaluates the moving least squares field at the vertex, f(x) = x + Σ φ_j u_j
+/// (Adams & Wicke 2009, section 7.2, alternative 1). SurfaceKind::particle_gradients blends the
+/// affine maps of the particles nearby, Σ ω̄_j (f(x_j) + F(x_j)(x − x_j)) (alternative 2, Eq. 68).
+class SurfaceEmbedding {
+ public:
+  /// `particles_at` are samples with gradients at the particles themselves, in their order.
+  SurfaceEmbedding(const MovingLeastSquares<3>& field, const Samples& particles_at,
+                   const Points& vertices, SurfaceKind kind);
+
+  /// Follows displacements `u` [m] N×3; `volumes` weigh the particles in the rigid part.
+  DeformedSurface deform(const Points& u, const Eigen::VectorXd& volumes) const;
+
+  /// Vertices outside all supports: they follow the nearest particle.
+  long uncovered() const { return blocks_.uncovered(); }
+  long rank_lost() const { return kind_ == SurfaceKind::field ? blocks_.rank_lost() : 0; }
+
+ private:
+  DeformedSurface follow_field(const Points& u, const RigidMotion& rigid) const;
+  DeformedSurface follow_particles(const Points& u, const RigidMotion& rigid) const;
+
+  SurfaceKind kind_;
+  BasisOrder order_;
+  const Samples& particles_at_;
+  BlockedField blocks_;
+};
+
+}  // namespace supple
