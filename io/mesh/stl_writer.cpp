@@ -1,0 +1,40 @@
+#include <Eigen/Geometry>
+#include <cstdint>
+
+#include "io/mesh/binary_output.h"
+#include "io/mesh/mesh_formats.h"
+
+namespace supple {
+namespace {
+
+constexpr std::size_t kTitleBytes = 80;
+
+}  // namespace
+
+void write_stl(const Mesh& mesh, OutputFile& file) {
+  if (mesh.face_count() == 0)
+    throw OutputError(fmt::format("{}: cannot write: STL holds triangles, this is a point cloud",
+                                  file.path().string()));
+  const Triangles triangles = triangulate(mesh).triangles;
+  std::string bytes = "binary STL by Supple";  // must not begin with "solid"
+  bytes.resize(kTitleBytes, ' ');
+  append_binary(bytes, static_cast<std::uint32_t>(triangles.rows()));
+  const auto append = [&](const Vec3& vector) {
+    for (int axis = 0; axis < 3; ++axis) append_binary(bytes, checked_float(vector[axis], file));
+  };
+  for (Index t = 0; t < triangles.rows(); ++t) {
+    // Rounded first, so that a reader's own normals are the same.
+    const Vec3 a = mesh.positions.row(triangles(t, 0)).cast<float>().cast<double>();
+    const Vec3 b = mesh.positions.row(triangles(t, 1)).cast<float>().cast<double>();
+    const Vec3 c = mesh.positions.row(triangles(t, 2)).cast<float>().cast<double>();
+    append((b - a).stableNormalized().cross((c - a).stableNormalized()).stableNormalized());
+    append(a);
+    append(b);
+    append(c);
+    append_binary(bytes, std::uint16_t{0});
+    file.write(bytes);
+    bytes.clear();
+  }
+}
+
+}  // namespace supple
