@@ -1,0 +1,154 @@
+#include "modeler/domain/surface_samples.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+
+#include "solver/core/check.h"
+
+namespace supple {
+
+namespace {
+
+struct Sample {
+  Vec3 position;
+  double area;
+  int triangle, vertex;
+};
+
+/// One triangle's samples: its edges cut into `pieces`, a sample for each of pieces² parts.
+class TriangleSampler {
+ public:
+  TriangleSampler(const std::array<Vec3, 3>& corners, const Eigen::Vector3i& vertices, int triangle)
+      : corners_(corners), vertices_(vertices), triangle_(triangle) {
+    area_ = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+  }
+
+  double longest_edge() const {
+    double longest = 0;
+    for (int k = 0; k < 3; ++k)
+      longest = std::max(longest, (corners_[(k + 1) % 3] - corners_[k]).norm());
+    return longest;
+  }
+
+  /// Parts between lines i, i+1 and j, j+1 of the grid: one upright, and one upside down.
+  void append(int pieces, std::vector<Sample>& samples) const {
+    if (!(area_ > 0)) return;
+    for (int i = 0; i < pieces; ++i)
+      for (int j = 0; i + j < pieces; ++j) {
+        samples.push_back(at((i + 1.0 / 3) / pieces, (j + 1.0 / 3) / pieces, pieces));
+        if (i + j + 1 < pieces)
+          samples.push_back(at((i + 2.0 / 3) / pieces, (j + 2.0 / 3) / pieces, pieces));
+      }
+  }
+
+ private:
+  Sample at(double u, double v, int pieces) const {
+    const Vec3 x = corners_[0] + u * (corners_[1] - corners_[0]) + v * (corners_[2] - corners_[0]);
+    int nearest = 0;
+    for (int k = 1; k < 3; ++k)
+      if ((corners_[k] - x).squaredNorm() < (corners_[nearest] - x).squaredNorm()) nearest = k;
+    return {x, area_ / (double(pieces) * pieces), triangle_, vertices_[nearest]};
+  }
+
+  std::array<Vec3, 3> corners_;
+  Eigen::Vector3i vertices_;
+  int triangle_;
+  double area_;
+};
+
+/// A sample and the cell of a grid it lies in.
+struct InCell {
+  std::array<std::int64_t, 3> cell;
+  int sample;
+
+  bool operator<(const InCell& other) const {
+    return std::tie(cell, sample) < std::tie(other.cell, other.sample);
+  }
+};
+
+std::vector<InCell> sort_into_cells(const SurfaceSamples& samples, const std::vector<int>& chosen,
+                                    double width) {
+  Box box;
+  for (int i : chosen) box.extend(samples.positions.row(i).transpose());
+  std::vector<InCell> result;
+  result.reserve(chosen.size());
+  for (int i : chosen) {
+    // Off the box's corner, so that no regular row of samples lies on the cells' faces.
+    const Vec3 steps =
+        (samples.positions.row(i).transpose() - box.lower) / width + Vec3(0.3137, 0.1271, 0.2213);
+    InCell entry{{}, i};
+    for (int axis = 0; axis < 3; ++axis)
+      entry.cell[axis] = static_cast<std::int64_t>(std::floor(steps[axis]));
+    result.push_back(entry);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// The sample nearest to the centroid of [begin, end), and all their area.
+std::pair<int, double> gather(const SurfaceSamples& samples, const InCell* begin,
+                              const InCell* end) {
+  double area = 0;
+  Vec3 moment = Vec3::Zero();
+  const Vec3 origin = samples.positions.row(begin->sample);
+  for (const InCell* entry = begin; entry != end; ++entry) {
+    area += samples.areas[entry->sample];
+    moment +=
+        samples.areas[entry->sample] * (samples.positions.row(entry->sample).transpose() - origin);
+  }
+  const Vec3 centroid = origin + moment / area;
+  const auto distance2 = [&](const InCell* entry) {
+    return (samples.positions.row(entry->sample).transpose() - centroid).squaredNorm();
+  };
+  // The first of those that are as near but for rounding: the choice must not depend on units.
+  const InCell* nearest = begin;
+  for (const InCell* entry = begin + 1; entry != end; ++entry)
+    if (distance2(entry) < (1 - 1e-6) * distance2(nearest)) nearest = entry;
+  return {nearest->sample, area};
+}
+
+}  // namespace
+
+SurfaceSamples sample_surface(const Points& positions, const Triangles& triangles,
+                              double max_width) {
+  SUPPLE_CHECK(max_width > 0, "the samples' width must be positive");
+  std::vector<Sample> samples;
+  for (Index t = 0; t < triangles.rows(); ++t) {
+    const auto corner = [&](int k) -> Vec3 { return positions.row(triangles(t, k)); };
+    const TriangleSampler sampler({corner(0), corner(1), corner(2)}, triangles.row(t),
+                                  static_cast<int>(t));
+    sampler.append(std::max(1, int(std::ceil(sampler.longest_edge() / max_width))), samples);
+  }
+  const Index count = static_cast<Index>(samples.size());
+  SurfaceSamples result{Points(count, 3), Eigen::VectorXd(count), {}, {}};
+  for (Index i = 0; i < count; ++i) {
+    result.positions.row(i) = samples[i].position.transpose();
+    result.areas[i] = samples[i].area;
+    result.triangles.push_back(samples[i].triangle);
+    result.vertices.push_back(samples[i].vertex);
+  }
+  return result;
+}
+
+ThinnedSamples thin_samples(const SurfaceSamples& samples, const std::vector<int>& chosen,
+                            double width) {
+  SUPPLE_CHECK(width > 0, "the cells' width must be positive");
+  const std::vector<InCell> entries = sort_into_cells(samples, chosen, width);
+  ThinnedSamples result;
+  std::vector<double> areas;
+  for (std::size_t begin = 0, end = 0; begin < entries.size(); begin = end) {
+    while (end < entries.size() && entries[end].cell == entries[begin].cell) ++end;
+    const auto [sample, area] = gather(samples, &entries[begin], &entries[begin] + (end - begin));
+    result.indices.push_back(sample);
+    areas.push_back(area);
+  }
+  result.areas = Eigen::Map<const Eigen::VectorXd>(areas.data(), Index(areas.size()));
+  return result;
+}
+
+}  // namespace supple

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/core/types.h"
+
+namespace supple {
+
+/// Points spread over a surface, each standing for a piece of its area.
+struct SurfaceSamples {
+  Points positions;          ///< [m], n×3
+  Eigen::VectorXd areas;     ///< [m²], n
+  std::vector<int> triangles;  ///< the triangle each lies in
+  std::vector<int> vertices;   ///< that triangle's corner nearest to it
+  Index size() const { return positions.rows(); }
+};
+
+/// Cuts every triangle into equal parts no wider than `max_width` [m] (each edge into
+/// ceil(longest edge / max_width) pieces) and puts a sample at each part's centroid.
+SurfaceSamples sample_surface(const Points& positions, const Triangles& triangles,
+                              double max_width);
+
+/// Thins samples to about one a cell of `width` [m]: each cell keeps the sample nearest to its
+/// centroid, with the cell's whole area. Returns indices into `samples` and their areas.
+struct ThinnedSamples {
+  std::vector<int> indices;
+  Eigen::VectorXd areas;  ///< [m²]
+};
+ThinnedSamples thin_samples(const SurfaceSamples& samples, const std::vector<int>& chosen,
+                            double width);
+
+}  // namespace supple

@@ -1,0 +1,205 @@
+#include "modeler/domain/triangle_tree.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace supple {
+
+namespace {
+
+constexpr int leaf_size = 4;
+constexpr int stack_size = 64;  // halving 2³¹ triangles goes 31 deep
+
+/// A node is far where its centre is more than this many reaches away.
+constexpr double far_ratio = 2.0;
+
+double squared_distance(const Box& box, const Vec3& x) {
+  return (box.lower - x).cwiseMax(x - box.upper).cwiseMax(0.0).squaredNorm();
+}
+
+Vec3 closest_on_segment(const Vec3& a, const Vec3& b, const Vec3& x) {
+  const Vec3 edge = b - a;
+  const double length2 = edge.squaredNorm();
+  if (length2 <= 0) return a;
+  return a + std::clamp(edge.dot(x - a) / length2, 0.0, 1.0) * edge;
+}
+
+/// Takes over the triangle's point nearest to x where it is nearer than `best`. Safe for slivers
+/// and for triangles that are a line or a point.
+void improve(const std::array<Vec3, 3>& corners, int triangle, const Vec3& x, ClosestPoint& best) {
+  const auto& [a, b, c] = corners;
+  const Vec3 normal = (b - a).cross(c - a);
+  const double area2 = normal.squaredNorm();
+  const double height = normal.dot(x - a);
+  if (height * height >= best.squared_distance * area2 && area2 > 0) return;
+  bool inside = area2 > 0;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3& from = corners[k];
+    const Vec3& to = corners[(k + 1) % 3];
+    if (area2 > 0 && normal.cross(to - from).dot(x - from) >= 0) continue;
+    inside = false;
+    const Vec3 point = closest_on_segment(from, to, x);
+    const double distance2 = (point - x).squaredNorm();
+    if (distance2 < best.squared_distance) best = {point, distance2, triangle};
+  }
+  if (inside) best = {x - height / area2 * normal, height * height / area2, triangle};
+}
+
+/// van Oosterom & Strackee 1983, Eq. 8.
+double solid_angle(const std::array<Vec3, 3>& corners, const Vec3& x) {
+  const Vec3 a = corners[0] - x, b = corners[1] - x, c = corners[2] - x;
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2 * std::atan2(a.dot(b.cross(c)),
+                        la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+}  // namespace
+
+/// Integrals over a node's triangles, about the origin.
+struct TriangleTree::Sums {
+  double area = 0;
+  Vec3 area_position = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();
+  Mat3 moment = Mat3::Zero();
+
+  void add(const Corners& t) {
+    const Vec3 n = 0.5 * (t[1] - t[0]).cross(t[2] - t[0]);
+    const Vec3 centroid = (t[0] + t[1] + t[2]) / 3;
+    area += n.norm();
+    area_position += n.norm() * centroid;
+    normal += n;
+    moment += centroid * n.transpose();
+  }
+  void add(const Sums& other) {
+    area += other.area;
+    area_position += other.area_position;
+    normal += other.normal;
+    moment += other.moment;
+  }
+};
+
+TriangleTree::TriangleTree(const Points& positions, const Triangles& triangles) {
+  const int count = static_cast<int>(triangles.rows());
+  if (count == 0) return;
+  const auto corner = [&](int t, int k) -> Vec3 { return positions.row(triangles(t, k)); };
+  std::vector<Centroid> centroids(count);
+  for (int t = 0; t < count; ++t)
+    centroids[t] = {(corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3, t};
+  nodes_.reserve(count);
+  split(centroids, 0, count);
+
+  triangles_.reserve(count);
+  corners_.reserve(count);
+  for (const Centroid& c : centroids) {
+    triangles_.push_back(c.triangle);
+    corners_.push_back({corner(c.triangle, 0), corner(c.triangle, 1), corner(c.triangle, 2)});
+  }
+  measure_nodes();
+}
+
+/// Halves a run of centroids at the median of their box's longest side.
+void TriangleTree::split(std::vector<Centroid>& centroids, int first, int count) {
+  const std::size_t node = nodes_.size();
+  nodes_.push_back({{}, first, count, 0});
+  if (count <= leaf_size) return;
+  Box box;
+  const auto begin = centroids.begin() + first;
+  std::for_each(begin, begin + count, [&](const Centroid& c) { box.extend(c.position); });
+  int axis;
+  box.size().maxCoeff(&axis);
+  const int half = count / 2;
+  std::nth_element(begin, begin + half, begin + count, [axis](const auto& a, const auto& b) {
+    return a.position[axis] < b.position[axis];
+  });
+  split(centroids, first, half);
+  nodes_[node].second = static_cast<int>(nodes_.size());
+  split(centroids, first + half, count - half);
+}
+
+/// Boxes and dipoles of all nodes, children first.
+void TriangleTree::measure_nodes() {
+  dipoles_.resize(nodes_.size());
+  std::vector<Sums> sums(nodes_.size());
+  for (int i = static_cast<int>(nodes_.size()) - 1; i >= 0; --i) {
+    Node& node = nodes_[i];
+    if (node.leaf()) {
+      for (int t = node.first; t < node.first + node.count; ++t) {
+        sums[i].add(corners_[t]);
+        for (const Vec3& corner : corners_[t]) node.box.extend(corner);
+      }
+    } else {
+      for (int child : {i + 1, node.second}) {
+        sums[i].add(sums[child]);
+        node.box.extend(nodes_[child].box.lower);
+        node.box.extend(nodes_[child].box.upper);
+      }
+    }
+    dipoles_[i] = dipole(i, sums[i]);
+  }
+}
+
+TriangleTree::Dipole TriangleTree::dipole(int node, const Sums& sums) const {
+  Dipole result;
+  result.center = sums.area > 0 ? Vec3(sums.area_position / sums.area) : nodes_[node].box.center();
+  for (int t = nodes_[node].first; t < nodes_[node].first + nodes_[node].count; ++t)
+    for (const Vec3& corner : corners_[t])
+      result.squared_reach = std::max(result.squared_reach, (corner - result.center).squaredNorm());
+  result.normal = sums.normal;
+  result.moment = sums.moment - result.center * sums.normal.transpose();
+  return result;
+}
+
+ClosestPoint TriangleTree::closest(const Vec3& x) const {
+  ClosestPoint best;
+  if (nodes_.empty()) return best;
+  std::array<std::pair<int, double>, stack_size> stack;
+  int size = 0;
+  stack[size++] = {0, squared_distance(nodes_[0].box, x)};
+  while (size > 0) {
+    const auto [at, distance2] = stack[--size];
+    if (distance2 >= best.squared_distance) continue;
+    const Node& node = nodes_[at];
+    if (node.leaf()) {
+      for (int t = node.first; t < node.first + node.count; ++t)
+        improve(corners_[t], triangles_[t], x, best);
+      continue;
+    }
+    std::pair near(at + 1, squared_distance(nodes_[at + 1].box, x));
+    std::pair far(node.second, squared_distance(nodes_[node.second].box, x));
+    if (far.second < near.second) std::swap(near, far);
+    stack[size++] = far;
+    stack[size++] = near;
+  }
+  return best;
+}
+
+double TriangleTree::winding_number(const Vec3& x) const {
+  if (nodes_.empty()) return 0;
+  double sum = 0;
+  std::array<int, stack_size> stack;
+  int size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const int at = stack[--size];
+    const Dipole& dipole = dipoles_[at];
+    const Vec3 r = dipole.center - x;
+    const double r2 = r.squaredNorm();
+    if (r2 > far_ratio * far_ratio * dipole.squared_reach) {
+      sum += (dipole.normal.dot(r) + dipole.moment.trace() - 3 * r.dot(dipole.moment * r) / r2) /
+             (r2 * std::sqrt(r2));
+      continue;
+    }
+    const Node& node = nodes_[at];
+    if (node.leaf()) {
+      for (int t = node.first; t < node.first + node.count; ++t) sum += solid_angle(corners_[t], x);
+    } else {
+      stack[size++] = node.second;
+      stack[size++] = at + 1;
+    }
+  }
+  return sum / (4 * std::numbers::pi);
+}
+
+}  // namespace supple
