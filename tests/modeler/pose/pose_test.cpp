@@ -1,0 +1,186 @@
+#include "modeler/pose/pose.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "io/mesh/mesh_files.h"
+#include "io/scene/scene_reader.h"
+#include "modeler/domain/shape_error.h"
+#include "solver/core/parallel.h"
+#include "tests/support/shapes.h"
+
+namespace supple {
+namespace {
+
+Scene scene_with(const std::string& pose, int particles = 200) {
+  return read_scene_text(
+      fmt::format("shape: {{mesh: bar.obj, particles: {}}}\npose:\n{}", particles, pose), "test",
+      "");
+}
+
+/// The box of Adams & Wicke's Fig. 13: base fixed, top moved sideways by a quarter of its height.
+PoseResult pose_box(double volume_weight, MinimizerKind solver = MinimizerKind::lbfgs) {
+  Scene scene = scene_with("  handles:\n    - fix: z<2%\n    - {move: z>98%, by: [0.5, 0, 0]}\n");
+  scene.pose->weights.volume = volume_weight;
+  scene.pose->solver = solver;
+  return pose(make_quad_bar({1, 1, 2}, {8, 8, 16}), scene);
+}
+
+double volume_change(const PoseResult& result) {
+  return result.volume_after / result.volume_before - 1;
+}
+
+double total_energy(const PoseResult& result) {
+  double sum = 0;
+  for (const auto& [name, value] : result.report.energies) sum += value;
+  return sum;
+}
+
+TEST(Pose, RigidityAloneSwellsTheBoxAndTheVolumeTermKeepsIt) {
+  const double alone = volume_change(pose_box(0));
+  const double kept = volume_change(pose_box(1));
+  const double kept_firmly = volume_change(pose_box(10));
+  RecordProperty("volume_change_rigidity_only", fmt::format("{:+.4f}", alone));
+  RecordProperty("volume_change_weight_1", fmt::format("{:+.4f}", kept));
+  RecordProperty("volume_change_weight_10", fmt::format("{:+.4f}", kept_firmly));
+  EXPECT_GT(alone, 0.02);
+  EXPECT_LT(std::abs(kept), 0.02);
+  EXPECT_LT(std::abs(kept_firmly), 0.01);
+}
+
+TEST(Pose, TheReferenceMinimiserFindsTheSamePose) {
+  const PoseResult lbfgs = pose_box(1);
+  const PoseResult reference = pose_box(1, MinimizerKind::trust_region);
+  EXPECT_NEAR(total_energy(lbfgs), total_energy(reference), 1e-3 * total_energy(reference));
+  const double diagonal = bounding_box(lbfgs.rest.positions).diagonal();
+  EXPECT_LT((lbfgs.mesh.positions - reference.mesh.positions).cwiseAbs().maxCoeff(),
+            5e-3 * diagonal);
+}
+
+TEST(Pose, MeetsItsHandlesAndKeepsTheMesh) {
+  const Mesh bar = make_quad_bar({0.25, 0.25, 1}, {4, 4, 16});
+  const PoseResult result = pose(bar, scene_with("  handles:\n    - fix: z<10%\n"
+                                                 "    - move: z>90%\n"
+                                                 "      by: [20%, 0, -5%]\n"
+                                                 "      turn: {axis: [0, 1, 0], degrees: 60}\n"));
+  EXPECT_EQ(result.report.status, Status::ok);
+  EXPECT_LT(result.handle_max_error, 0.01);
+  ASSERT_EQ(result.handles.size(), 2u);
+  EXPECT_GT(result.handles[1].samples, 50);
+  EXPECT_GT(result.min_det_F, 0.1);
+  EXPECT_LT(std::abs(volume_change(result)), 0.03);
+  EXPECT_EQ(result.mesh.face_vertices, bar.face_vertices);
+  EXPECT_EQ(result.mesh.positions.rows(), bar.positions.rows());
+}
+
+TEST(Pose, IsTheSameForEveryNumberOfThreads) {
+  const auto positions = [](int threads) {
+    const ThreadLimit limit(threads);
+    return pose_box(1).mesh.positions;
+  };
+  EXPECT_EQ(positions(1), positions(2));
+}
+
+TEST(Pose, DoesNotDependOnUnitsOrPlace) {
+  const std::string handles =
+      "  handles:\n    - fix: z<10%\n    - {move: z>90%, by: [20%, 10%, 0]}\n";
+  const Mesh bar = make_quad_bar({0.25, 0.25, 1}, {4, 4, 16});
+  Mesh moved = bar;
+  moved.positions = (bar.positions * 1000).rowwise() + Eigen::RowVector3d(5e4, -3e4, 1e4);
+  const Points a = pose(bar, scene_with(handles)).mesh.positions;
+  Points b = pose(moved, scene_with(handles)).mesh.positions;
+  b = (b.rowwise() - Eigen::RowVector3d(5e4, -3e4, 1e4)) / 1000;
+  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+TEST(Pose, WeightsScalesAndTurnsBeyondHalfATurn) {
+  const Mesh bar = make_quad_bar({0.25, 0.25, 1}, {4, 4, 16});
+  // Two handles pull one end apart: it ends at their weighted mean.
+  const PoseResult pulled =
+      pose(bar, scene_with("  handles:\n    - {move: z>90%, by: [0.1, 0, 0], weight: 3}\n"
+                           "    - {move: z>90%, by: [-0.1, 0, 0]}\n"));
+  const Vec3 shift = (pulled.mesh.positions - bar.positions).colwise().mean().transpose();
+  EXPECT_NEAR(shift[0], 0.05, 1e-6);
+
+  const PoseResult scaled = pose(
+      bar, scene_with("  handles:\n    - fix: z<10%\n    - {move: z>90%, scale: [1.5, 1.5, 1]}\n"));
+  EXPECT_GT(bounding_box(scaled.mesh.positions).size()[0], 1.3 * 0.25);
+
+  // 270° is not −90°: the middle of the bar turns by about 135°.
+  const PoseResult twisted =
+      pose(bar, scene_with("  handles:\n    - fix: z<5%\n"
+                           "    - {move: z>95%, turn: {axis: [0, 0, 1], degrees: 270}}\n"));
+  for (Index i = 0; i < bar.positions.rows(); ++i) {
+    const Vec3 x = bar.positions.row(i).transpose();
+    if (std::abs(x[2] - 0.5) > 1e-9 || x[0] != 0 || x[1] != 0) continue;
+    const Vec3 y = twisted.mesh.positions.row(i).transpose();
+    const double before = std::atan2(x[1] - 0.125, x[0] - 0.125);
+    const double angle = std::atan2(y[1] - 0.125, y[0] - 0.125) - before;
+    EXPECT_NEAR(std::cos(angle - 135 * EIGEN_PI / 180), 1, 0.05);
+  }
+}
+
+TEST(Pose, BothSurfaceAlternativesGiveNearlyTheSamePose) {
+  Scene scene = scene_with("  handles:\n    - fix: z<10%\n    - {move: z>90%, by: [20%, 0, 0]}\n");
+  const Mesh bar = make_quad_bar({0.25, 0.25, 1}, {4, 4, 16});
+  const Points a = pose(bar, scene).mesh.positions;
+  scene.pose->surface = SurfaceKind::particle_gradients;
+  const Points b = pose(bar, scene).mesh.positions;
+  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 0.02);
+  EXPECT_GT((a - b).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(Pose, EveryBasisAndKernelPoses) {
+  const Mesh bar = make_quad_bar({0.25, 0.25, 1}, {4, 4, 16});
+  for (const char* basis : {"linear", "quadratic"})
+    for (const char* kernel : {"polynomial", "wendland", "box"}) {
+      const Scene scene = read_scene_text(
+          fmt::format("shape: {{mesh: m.obj, particles: 150, basis: {}, kernel: {}}}\n"
+                      "pose: {{handles: [{{fix: 'z<10%'}}, {{move: 'z>90%', by: [10%, 0, 0]}}]}}",
+                      basis, kernel),
+          "test", "");
+      const PoseResult result = pose(bar, scene);
+      EXPECT_TRUE(result.report.usable()) << basis << " " << kernel;
+      EXPECT_LT(result.handle_max_error, 0.01) << basis << " " << kernel;
+    }
+}
+
+TEST(Pose, SaysWhatIsWrongWithAShape) {
+  const Scene scene = scene_with("  handles:\n    - fix: z<10%\n");
+  Mesh open = make_quad_bar({1, 1, 1}, {2, 2, 2});
+  open.face_starts.pop_back();
+  open.face_vertices.resize(open.face_vertices.size() - 4);
+  EXPECT_THROW(pose(open, scene), ShapeError);
+  Mesh cloud = open;
+  cloud.face_starts = {0};
+  cloud.face_vertices.clear();
+  EXPECT_THROW(pose(cloud, scene), ShapeError);
+}
+
+TEST(Pose, StopsWhereTheProgressSaysSo) {
+  const Scene scene = scene_with("  handles:\n    - fix: z<10%\n");
+  int calls = 0;
+  EXPECT_THROW(pose(make_quad_bar({1, 1, 1}, {4, 4, 4}), scene,
+                    [&](const std::string&, double) { return ++calls < 3; }),
+               Interrupted);
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(Pose, BendsRealMeshes) {
+  const std::filesystem::path data = std::filesystem::path(SUPPLE_SHARED_DATA) / "data";
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << "skipped: no shared data";
+  for (const char* name : {"armadillo_1k.off", "stanford_bunny_3k.obj", "spot_3k.obj"}) {
+    const Scene scene =
+        scene_with("  handles:\n    - fix: y<8%\n    - {move: y>85%, by: [15%, -5%, 0]}\n");
+    const PoseResult result = pose(read_mesh(data / name), scene);
+    EXPECT_TRUE(result.report.usable()) << name;
+    EXPECT_LT(result.handle_max_error, 0.02) << name;
+    EXPECT_LT(std::abs(volume_change(result)), 0.05) << name;
+    EXPECT_TRUE(result.mesh.positions.allFinite()) << name;
+  }
+}
+
+}  // namespace
+}  // namespace supple
