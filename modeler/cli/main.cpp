@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <new>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "io/errors.h"
+#include "io/scene/complaint.h"
+#include "modeler/cli/commands.h"
+#include "modeler/cli/interrupt.h"
+#include "modeler/domain/shape_error.h"
+#include "modeler/pose/pose.h"
+#include "solver/core/check.h"
+
+namespace supple {
+namespace {
+
+struct Command {
+  std::string_view name;
+  int (*run)(Words);  ///< null: not available yet
+  std::string_view summary;
+};
+
+constexpr std::array<Command, 9> commands{{
+    {"pose", run_pose, "deform a shape by handles"},
+    {"render", run_render, "draw a mesh into a picture"},
+    {"plan", run_plan, "which effects a scene calls for, and why"},
+    {"inspect", nullptr, ""},
+    {"animate", nullptr, ""},
+    {"simulate", nullptr, ""},
+    {"modes", nullptr, ""},
+    {"study", nullptr, ""},
+    {"convert", nullptr, ""},
+}};
+
+std::string help() {
+  std::string text =
+      "Supple poses shapes with physical energies, without meshing their inside.\n\n"
+      "Usage: supple COMMAND ...\n\nCommands:\n";
+  for (const Command& command : commands)
+    if (command.run) text += fmt::format("  {:<8} {}\n", command.name, command.summary);
+  return text +
+         "\nsupple COMMAND --help says more; supple --version prints the version.\n\n"
+         "Example:\n"
+         "  supple pose bunny.obj --fix 'y<10%' --move 'y>85%' --by 15%,0,0 -o posed.obj\n";
+}
+
+int dispatch(const std::string& name, Words words) {
+  std::vector<std::string_view> names;
+  for (const Command& command : commands) {
+    if (command.run) names.push_back(command.name);
+    if (command.name != name) continue;
+    if (!command.run) throw UsageError(fmt::format("{} is not available yet", name));
+    return command.run(words);
+  }
+  throw UsageError(
+      fmt::format("{} is not a command{}", in_quotes(name), allowed_names(name, names)));
+}
+
+int run(const std::vector<std::string>& words) {
+  if (words.empty()) {
+    fmt::print(stderr, "{}", help());
+    return exit_usage;
+  }
+  const std::string& first = words.front();
+  if (first == "--help" || first == "-h" || first == "help") {
+    fmt::print("{}", help());
+    return exit_done;
+  }
+  if (first == "--version") {
+    fmt::print("supple {}\n", SUPPLE_VERSION);
+    return exit_done;
+  }
+  return dispatch(first, Words(words).subspan(1));
+}
+
+/// Text that is still on its way to standard output must arrive.
+int flushed(int code) {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw OutputError("standard output: cannot be written");
+  return code;
+}
+
+int report_error(std::string_view message, int code) {
+  fmt::print(stderr, "supple: {}\n", message);
+  return code;
+}
+
+int report_bug(std::string_view message) {
+  return report_error(fmt::format("{}\nsupple: this is a bug in Supple, not in what you asked; "
+                                  "please report it with the command that led here",
+                                  message),
+                      exit_failed);
+}
+
+int run_and_map_errors(const std::vector<std::string>& words) {
+  try {
+    return flushed(run(words));
+  } catch (const UsageError& error) {
+    return report_error(error.what(), exit_usage);
+  } catch (const InputError& error) {
+    return report_error(error.what(), exit_file);
+  } catch (const OutputError& error) {
+    return report_error(error.what(), exit_file);
+  } catch (const ShapeError& error) {
+    return report_error(error.what(), exit_failed);
+  } catch (const Interrupted& error) {
+    return report_error(error.what(), 128 + InterruptWatch::signal());
+  } catch (const std::bad_alloc&) {
+    return report_error("the memory of this machine does not suffice; fewer particles need less",
+                        exit_failed);
+  } catch (const std::system_error& error) {  // a file or a stream that broke
+    return report_error(error.what(), exit_file);
+  } catch (const std::exception& error) {
+    return report_bug(error.what());
+  }
+}
+
+}  // namespace
+}  // namespace supple
+
+int main(int count, char** words) {
+  return supple::run_and_map_errors({words + std::min(count, 1), words + count});
+}

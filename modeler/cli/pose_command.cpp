@@ -1,0 +1,164 @@
+#include <chrono>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "io/mesh/mesh_files.h"
+#include "modeler/cli/commands.h"
+#include "modeler/cli/interrupt.h"
+#include "modeler/cli/pose_arguments.h"
+#include "modeler/cli/progress_line.h"
+#include "modeler/cli/report_json.h"
+#include "modeler/cli/summary.h"
+#include "modeler/domain/shape_error.h"
+#include "solver/core/parallel.h"
+
+namespace supple {
+namespace {
+
+/// Bounding-box diagonals that a thing which is posed is likely to have [m].
+constexpr double smallest_likely = 1e-3, greatest_likely = 1e3;
+
+constexpr Color held_color{0.10f, 0.30f, 0.75f}, moved_color{0.85f, 0.05f, 0.05f};
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+double metres(FileUnit unit) {
+  switch (unit) {
+    case FileUnit::metre:
+      return 1;
+    case FileUnit::centimetre:
+      return 0.01;
+    case FileUnit::millimetre:
+      return 0.001;
+    case FileUnit::inch:
+      return 0.0254;
+  }
+  return 1;
+}
+
+/// A size that hints at other units than those of the scene.
+std::vector<std::string> size_notes(const Mesh& shape, const ShapeSpec& spec) {
+  const double size = metres(spec.units) * bounding_box(shape.positions).diagonal();
+  if (size >= smallest_likely && size <= greatest_likely) return {};
+  return {
+      fmt::format("the shape is {:.3g} m large, which is unlikely; shape.units says what one "
+                  "unit of the file is (m, cm, mm, in)",
+                  size)};
+}
+
+PoseResult solve(const Mesh& shape, const Scene& scene, ProgressLine& line) {
+  const Progress progress = [&](const std::string& stage, double share) {
+    line.show(stage, share);
+    return InterruptWatch::signal() == 0;
+  };
+  PoseResult result = pose(shape, scene, progress);
+  line.clear();
+  for (std::string& note : size_notes(result.rest, scene.shape))
+    result.report.notes.push_back(std::move(note));
+  result.report.notes.insert(result.report.notes.begin(), shape.notes.begin(), shape.notes.end());
+  return result;
+}
+
+/// The handles' samples at `points`: those that stay in blue, those that move in red.
+std::vector<Markers> handle_markers(const Points& points, const PoseResult& result) {
+  std::vector<Index> held, moved;
+  const double still = 1e-9 * bounding_box(result.rest.positions).diagonal();
+  for (Index i = 0; i < points.rows(); ++i) {
+    const double way = (result.handle_targets.row(i) - result.handle_rest.row(i)).norm();
+    (way <= still ? held : moved).push_back(i);
+  }
+  return {{points(held, Eigen::all), held_color}, {points(moved, Eigen::all), moved_color}};
+}
+
+void write_picture(const PoseResult& result, const PoseArguments& arguments) {
+  PictureItem before, after;
+  before.mesh = &result.rest;
+  before.label = "before";
+  before.markers = handle_markers(result.handle_rest, result);
+  after.mesh = &result.mesh;
+  after.label = "after";
+  after.markers = handle_markers(result.handle_targets, result);
+  write_png(render({before, after}, arguments.picture_view.options()), arguments.picture);
+}
+
+void write_outputs(const PoseArguments& arguments, ProgressLine& line, PoseRun& run) {
+  const Stopwatch watch;
+  line.show("write", 0);
+  InterruptWatch::check();
+  if (!arguments.mesh.empty()) {
+    write_mesh(run.result->mesh, arguments.mesh);
+    run.outputs.push_back(arguments.mesh);
+  }
+  InterruptWatch::check();
+  if (!arguments.picture.empty()) {
+    write_picture(*run.result, arguments);
+    run.outputs.push_back(arguments.picture);
+  }
+  line.clear();
+  run.write_seconds = watch.seconds();
+}
+
+void print(const PoseRun& run) {
+  for (const std::string& note : run.result->report.notes) fmt::print(stderr, "note: {}\n", note);
+  fmt::print("{}", summary(run));
+}
+
+/// Whether the run ends well; says on standard error why it does not.
+bool judge(const Report& report, const Allowance& allowance) {
+  if (report.usable() && allowance.covers(report)) return true;
+  for (const Reason& reason : report.reasons)
+    fmt::print(stderr, "supple: {}: {}\n", enum_name(reason.code), reason.detail);
+  fmt::print(stderr, "supple: {}\n",
+             report.usable() ? "the pose is degraded, but written; --allow-degraded accepts it"
+                             : "the pose failed; nothing is written");
+  return false;
+}
+
+}  // namespace
+
+int run_pose(Words words) {
+  PoseArguments arguments;
+  if (!arguments.parse(words)) return exit_done;
+  const InterruptWatch interrupts;
+  const ThreadLimit threads(arguments.run.threads);
+  ProgressLine line(arguments.run.quiet ? ProgressLine::Mode::silent
+                                        : ProgressLine::Mode::if_terminal);
+  const Stopwatch watch;
+  PoseRun run;
+  run.input = arguments.scene.path();
+  Scene scene = arguments.scene.take();
+  if (!scene.pose) scene.pose.emplace().place = scene.shape.place;
+  arguments.check_outputs();
+  line.show("load", 0);
+  const Mesh shape = read_mesh(scene.folder / scene.shape.mesh);
+  run.load_seconds = watch.seconds();
+
+  const auto write_report = [&] {
+    run.total_seconds = watch.seconds();
+    if (!arguments.report.empty()) write_text(report_json(run), arguments.report);
+  };
+  try {
+    run.result = solve(shape, scene, line);
+  } catch (const ShapeError& error) {
+    run.failure = error.what();
+    write_report();
+    throw;
+  }
+  if (run.result->report.usable()) write_outputs(arguments, line, run);
+  write_report();
+  if (!arguments.report.empty()) run.outputs.push_back(arguments.report);
+  if (!arguments.run.quiet) print(run);
+  std::fflush(stdout);
+  return judge(run.result->report, arguments.allowance) ? exit_done : exit_failed;
+}
+
+}  // namespace supple
