@@ -46,8 +46,6 @@ void check_rules(const ShapeSpec& shape, const SceneItem& item) {
 }
 
 void check_rules(const PoseSpec& pose, const SceneItem& item) {
-  if (pose.handles.empty())
-    complain(pose.place, "pose.handles is missing: a pose needs at least one handle");
   if (pose.hard_handles) refuse_for_now(item, "hard_handles", "true");
 }
 

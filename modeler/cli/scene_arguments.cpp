@@ -12,7 +12,7 @@ namespace supple {
 namespace {
 
 /// The scene that a bare shape stands for; the shape and its handles are put in after it was read.
-constexpr const char* shape_scene = "shape: {mesh: SHAPE}\npose: {handles: [{fix: y<0}]}\n";
+constexpr const char* shape_scene = "shape: {mesh: SHAPE}\npose: {}\n";
 
 /// Keys that are not options of their own: what the command line says in other words, and
 /// shape.size, since --size is the picture's.
@@ -147,7 +147,6 @@ Scene SceneArguments::read_shape(const SceneOverrides& overrides) const {
   Scene scene = read_scene_text(shape_scene, "command line", {}, overrides);
   scene.shape.mesh = path_;
   scene.shape.place = scene.pose->place = {"command line"};
-  scene.pose->handles.clear();
   return scene;
 }
 

@@ -24,19 +24,19 @@ Vec3 weighted_center(const SurfaceSamples& samples, const std::vector<int>& sele
   return sum / area;
 }
 
-/// The path in scaled coordinates.
+/// The path in scaled coordinates, for a selection with its centre there.
 HandlePath make_path(const HandleSpec& spec, const Vec3& center, const HandleContext& context) {
-  const auto scaled = [&](const Vec3& x) -> Vec3 { return (x - context.origin) / context.unit; };
   const Box& box = context.selection.box;
   HandlePath path;
-  path.center = path.about = scaled(center);
+  path.center = path.about = center;
   if (spec.fix) return path;
   path.scale = spec.scale;
   path.by = resolve_vector(spec.by, box.diagonal()) / context.unit;
   if (spec.turn) {
     path.axis = spec.turn->axis.normalized();
     path.radians = spec.turn->degrees * EIGEN_PI / 180;
-    if (spec.turn->about) path.about = scaled(resolve_point(*spec.turn->about, box));
+    if (spec.turn->about)
+      path.about = (resolve_point(*spec.turn->about, box) - context.origin) / context.unit;
   }
   return path;
 }
@@ -57,8 +57,9 @@ std::vector<PoseHandle> make_handles(const std::vector<HandleSpec>& specs,
     PoseHandle handle;
     handle.spec = &spec;
     handle.selected = select(spec.selection(), context.selection, context.samples);
-    handle.thinned = thin_samples(context.samples, handle.selected, context.sample_width);
-    handle.path = make_path(spec, weighted_center(context.samples, handle.selected), context);
+    handle.thinned = thin_samples(context.scaled_samples, handle.selected, context.sample_width);
+    handle.path =
+        make_path(spec, weighted_center(context.scaled_samples, handle.selected), context);
     handles.push_back(std::move(handle));
   }
   return handles;

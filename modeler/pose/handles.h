@@ -31,11 +31,12 @@ struct PoseHandle {
 
 /// What handles are chosen from: a shape scaled by 1/`unit` about `origin`.
 struct HandleContext {
-  SelectionContext selection;  ///< in the user's coordinates, with samples in them too
-  const SurfaceSamples& samples;
+  SelectionContext selection;            ///< in the user's coordinates
+  const SurfaceSamples& samples;         ///< in the user's coordinates: selections speak of them
+  const SurfaceSamples& scaled_samples;  ///< the same, scaled
   Vec3 origin;
   double unit;          ///< length of the scaled shape's 1 [m]
-  double sample_width;  ///< of the thinned samples [m]
+  double sample_width;  ///< of the thinned samples, scaled
 };
 
 /// Errors: UsageError for a selection that selects nothing.

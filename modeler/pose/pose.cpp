@@ -50,30 +50,42 @@ class Stages {
   std::string name_;
 };
 
-/// The field over a solid's particles, and its samples at them: they are the quadrature too.
+/// The field over a solid's particles, its samples where energies are summed, and its surface.
 struct SolidField {
   MovingLeastSquares<3> mls;
+  Quadrature points;
   Samples quadrature;
   SurfaceEmbedding surface;
 
   SolidField(const Solid& solid, const ShapeSpec& shape, SurfaceKind surface_kind)
       : mls(solid.particles().positions, solid.particles().supports, {shape.basis, shape.kernel}),
-        quadrature(
-            sample_field(mls, solid.particles().positions, SampleContent::values_and_gradients)),
+        points(solid.quadrature(shape.quadrature)),
+        quadrature(sample_field(mls, points.points, SampleContent::values_and_gradients)),
         surface(mls, quadrature, solid.vertices(), surface_kind) {}
   SolidField(const SolidField&) = delete;
 };
 
 HandleSamples choose_handles(const Mesh& mesh, const Solid& solid, const Scene& scene) {
-  const SelectionContext selection{mesh, solid.triangulation(), solid.box(), scene.folder};
-  const HandleContext context{selection, solid.surface(), solid.origin(), solid.unit(),
-                              0.5 * solid.particles().spacing * solid.unit()};
-  return {make_handles(scene.pose->handles, context), solid.scaled(solid.surface().positions)};
+  SurfaceSamples samples = solid.surface();
+  samples.positions = solid.restored(samples.positions);
+  const HandleContext context{{mesh, solid.triangulation(), solid.box(), scene.folder},
+                              samples,
+                              solid.surface(),
+                              solid.origin(),
+                              solid.unit(),
+                              0.5 * solid.particles().spacing};
+  return {make_handles(scene.pose->handles, context), solid.surface().positions};
+}
+
+/// Books time on an active effect.
+void book(std::vector<Effect>& effects, const std::string& name, double seconds) {
+  for (Effect& effect : effects)
+    if (effect.active && effect.name == name) effect.seconds += seconds;
 }
 
 Report solve(const Solid& solid, const SolidField& field, const HandleSamples& handles,
              const PoseSpec& spec, Stages& stages, PoseResult& result, Points& u) {
-  PoseSolver solver(solid.particles(), field.mls, field.quadrature, handles, spec.weights);
+  PoseSolver solver(field.mls, field.quadrature, field.points.volumes, handles, spec.weights);
   const MinimizeOptions options{spec.solver, spec.max_iterations, spec.tolerance};
   const int substeps = spec.substeps.value_or(substeps_needed(handles, solid.particles().size()));
   const auto start = std::chrono::steady_clock::now();
@@ -81,8 +93,7 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
       options, substeps, [&](double share) { stages.advance(share); }, u);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   for (const auto& [name, share] : solver.time_shares(u))
-    for (Effect& effect : result.effects)
-      if (effect.name == name) effect.seconds = share * taken.count();
+    book(result.effects, name, share * taken.count());
   report.notes.push_back(
       fmt::format("handles walked in {} step{}", substeps, substeps == 1 ? "" : "s"));
   return report;
@@ -91,7 +102,7 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
 /// Misses of the handles over all their surface samples, over the diagonal.
 void measure_handles(const Solid& solid, const SolidField& field, const HandleSamples& handles,
                      const Points& u, PoseResult& result) {
-  const Points points = solid.scaled(solid.surface().positions);
+  const Points& points = solid.surface().positions;
   double all_squares = 0;
   long all_samples = 0;
   for (const PoseHandle& handle : handles.handles()) {
@@ -178,9 +189,12 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
     result.report =
         stages.run("solve", [&] { return solve(solid, *field, handles, spec, stages, result, u); });
 
-  const DeformedSurface surface =
-      stages.run("deform", [&] { return field->surface.deform(u, solid.particles().volumes); });
-  result.mesh = deform_mesh(result.rest, surface);
+  const DeformedSurface surface = stages.run("deform", [&] {
+    DeformedSurface deformed = field->surface.deform(u, solid.particles().volumes);
+    result.mesh = deform_mesh(result.rest, deformed);
+    return deformed;
+  });
+  book(result.effects, "surface", timing.seconds.back().second);
   // Added to the input rather than replacing it: what did not move keeps its last bit.
   result.mesh.positions =
       result.rest.positions + solid.unit() * (surface.positions - solid.vertices());

@@ -14,15 +14,15 @@ constexpr double tolerance_on_the_way = 1e-4;
 
 }  // namespace
 
-PoseSolver::PoseSolver(const Particles& particles, const MovingLeastSquares<3>& field,
-                       const Samples& quadrature, const HandleSamples& handles,
+PoseSolver::PoseSolver(const MovingLeastSquares<3>& field, const Samples& quadrature,
+                       const Eigen::VectorXd& volumes, const HandleSamples& handles,
                        const PoseWeights& weights)
-    : particles_(particles),
+    : particles_(field.positions()),
       handles_(handles),
       handle_samples_(sample_field(field, handles.rest(), SampleContent::values)),
       handle_energy_(handles.rest()),
-      energy_(particles.size()) {
-  const Eigen::VectorXd shares = particles.volumes / particles.volumes.sum();
+      energy_(particles_.rows()) {
+  const Eigen::VectorXd shares = volumes / volumes.sum();
   energy_.add(handle_energy_, handle_samples_, handles.weights(), weights.handles);
   energy_.add(rigidity_, quadrature, shares, weights.rigidity);
   if (weights.volume > 0) energy_.add(volume_, quadrature, shares, weights.volume);
@@ -53,9 +53,8 @@ Report PoseSolver::solve(const MinimizeOptions& options, int substeps,
 
 void PoseSolver::predict(const Points& targets_before, const Points& targets, Points& u) const {
   const RigidMotion motion = best_fit_motion(targets_before, targets, handles_.weights());
-  const Points& x = particles_.positions;
-  Points moved = ((x + u) * motion.R.transpose()).rowwise() + motion.t.transpose();
-  moved -= x;
+  Points moved = ((particles_ + u) * motion.R.transpose()).rowwise() + motion.t.transpose();
+  moved -= particles_;
   if (energy_.evaluate(moved) < energy_.evaluate(u)) u = moved;
 }
 
@@ -65,7 +64,7 @@ std::vector<std::pair<std::string, double>> PoseSolver::time_shares(const Points
   double total = 0;
   for (const EnergyGroup& group : energy_.groups())
     for (const EnergyGroup::Term& term : group.terms) {
-      EnergySum alone(particles_.size());
+      EnergySum alone(particles_.rows());
       alone.add(*term.energy, *group.samples, group.sample_weights, term.weight);
       Points gradient;
       const auto start = Clock::now();

@@ -4,7 +4,6 @@
 
 #include "modeler/pose/handles.h"
 #include "solver/core/report.h"
-#include "solver/core/rest_shape.h"
 #include "solver/energy/energy_sum.h"
 #include "solver/energy/handle.h"
 #include "solver/energy/rigidity.h"
@@ -16,9 +15,11 @@ namespace supple {
 /// (Adams & Wicke 2009, Eq. 78), and the way to its minimum.
 class PoseSolver {
  public:
-  /// `quadrature` are samples with gradients at the particles; all of it outlives the solver.
-  PoseSolver(const Particles& particles, const MovingLeastSquares<3>& field,
-             const Samples& quadrature, const HandleSamples& handles, const PoseWeights& weights);
+  /// `quadrature` are samples with gradients, each standing for one of `volumes`; all of it
+  /// outlives the solver.
+  PoseSolver(const MovingLeastSquares<3>& field, const Samples& quadrature,
+             const Eigen::VectorXd& volumes, const HandleSamples& handles,
+             const PoseWeights& weights);
   PoseSolver(const PoseSolver&) = delete;
   PoseSolver& operator=(const PoseSolver&) = delete;
 
@@ -36,7 +37,7 @@ class PoseSolver {
   /// Moves `u` along with the handles as one body where that is nearer to the new minimum.
   void predict(const Points& targets_before, const Points& targets, Points& u) const;
 
-  const Particles& particles_;
+  const Points& particles_;
   const HandleSamples& handles_;
   Samples handle_samples_;
   HandleEnergy handle_energy_;

@@ -8,6 +8,12 @@
 
 namespace supple {
 
+/// Points that energies are summed over, and the volume that each stands for.
+struct Quadrature {
+  Points points;            ///< n×3, the particles first
+  Eigen::VectorXd volumes;  ///< n; their sum is the solid's volume
+};
+
 /// A shape made ready for posing: scaled to a diagonal of 1 about its box's centre, so that
 /// nothing depends on units or on where it lies, filled with particles, and with a field.
 class Solid {
@@ -21,10 +27,13 @@ class Solid {
 
   const Triangulation& triangulation() const { return triangulation_; }
   const Box& box() const { return box_; }  ///< in the user's coordinates
+
+  // In our coordinates:
   const Points& vertices() const { return vertices_; }
-  const std::vector<bool>& used_vertices() const { return used_; }
-  const SurfaceSamples& surface() const { return surface_; }  ///< in the user's coordinates
+  const SurfaceSamples& surface() const { return surface_; }
   const Particles& particles() const { return particles_; }
+
+  const std::vector<bool>& used_vertices() const { return used_; }  ///< by any face
   const std::vector<std::string>& notes() const { return notes_; }
   Vec3 origin() const { return origin_.transpose(); }
   double unit() const { return unit_; }
@@ -33,8 +42,15 @@ class Solid {
   /// Returns the share of covered points whose particles lie near a plane or a line.
   double choose_particle_supports(KernelKind kernel);
 
+  /// QuadratureKind::particles: at the particles. Automatic: also at points spread over the
+  /// surface, which take a part of the volume of the particle nearest to them. Particles alone
+  /// let some displacements through that bend the surface between them without any energy.
+  Quadrature quadrature(QuadratureKind kind) const;
+
  private:
   void sample(const ShapeSpec& spec);
+  /// Surface points about `width` apart, in our coordinates.
+  Points spread_over_surface(double width) const;
 
   Triangulation triangulation_;
   Box box_;

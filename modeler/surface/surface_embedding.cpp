@@ -37,7 +37,8 @@ DeformedSurface SurfaceEmbedding::deform(const Points& u, const Eigen::VectorXd&
   }
   const bool reproduces_turns =
       kind_ == SurfaceKind::particle_gradients || order_ != BasisOrder::constant;
-  const RigidMotion rigid = rigid_part(particles_at_.points, u, volumes, reproduces_turns);
+  const RigidMotion rigid =
+      rigid_part(particles_at_.points.topRows(u.rows()), u, volumes, reproduces_turns);
   return kind_ == SurfaceKind::field ? follow_field(u, rigid) : follow_particles(u, rigid);
 }
 

@@ -21,7 +21,8 @@ struct DeformedSurface {
 /// affine maps of the particles nearby, Σ ω̄_j (f(x_j) + F(x_j)(x − x_j)) (alternative 2, Eq. 68).
 class SurfaceEmbedding {
  public:
-  /// `particles_at` are samples with gradients at the particles themselves, in their order.
+  /// `particles_at` are samples with gradients whose first ones are at the particles themselves,
+  /// in their order; they outlive the embedding.
   SurfaceEmbedding(const MovingLeastSquares<3>& field, const Samples& particles_at,
                    const Points& vertices, SurfaceKind kind);
 

@@ -38,6 +38,7 @@ struct FilteredReciprocal {
 /// Divided difference f[a, b]; the derivative where a and b agree.
 inline double divided_difference(double a, double b) {
   if (a >= sound_rank && b >= sound_rank) return -1 / (a * b);
+  if (a <= lost_rank && b <= lost_rank) return 0;
   if (std::abs(a - b) <= 1e-5 * std::max(a, b)) return FilteredReciprocal(0.5 * (a + b)).first;
   return (FilteredReciprocal(a).value - FilteredReciprocal(b).value) / (a - b);
 }
@@ -64,7 +65,8 @@ int filtered_inverse(const JetMatrix<N, Dim, Order>& S, JetMatrix<N, Dim, Order>
   using Layout = Jet<Dim, Order>;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(S[0]);
   const auto& V = eigen.eigenvectors();
-  const auto& lambda = eigen.eigenvalues();
+  // Rounding may leave zeros a little negative, and two of them equal.
+  const Eigen::Matrix<double, N, 1> lambda = eigen.eigenvalues().cwiseMax(0.0);
 
   int rank = 0;
   Eigen::Matrix<double, N, 1> f;

@@ -8,10 +8,10 @@ namespace supple {
 struct SupportOptions {
   double neighbors = 25;    ///< mean number of particles that reach a point inside
   int least_neighbors = 8;  ///< that reach every covered point, at least
-  double most_slope = 30;  ///< of the shape functions: greatest h·Σ|∇φ_j|, h the usual support
+  double most_slope = 60;  ///< of the shape functions: greatest h·Σ|∇φ_j|, h the usual support
   double growth = 1.15;    ///< of a support in one round
   int rounds = 12;         ///< of growth at most
-  double smoothness = 0.5;  ///< by how much supports may differ over a distance
+  double smoothness = 1;   ///< by how much supports may differ over a distance
 };
 
 struct Supports {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <ceres/gradient_problem.h>
@@ -68,7 +69,7 @@ Report minimize_lbfgs(const EnergySum& energy, const Preconditioner& preconditio
 
   Report report;
   u = function->displacements(y.data());
-  report.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  report.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
   if (summary.termination_type == ceres::NO_CONVERGENCE)
     report.degrade({ReasonCode::max_iterations, 1, static_cast<double>(report.iterations),
                     fmt::format("stopped after {} iterations", report.iterations)});

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -99,7 +100,7 @@ Report minimize_trust_region(const EnergySum& energy, const MinimizeOptions& opt
   ceres::Solve(ceres_options, &problem, &summary);
 
   Report report;
-  report.iterations = static_cast<int>(summary.iterations.size()) - 1;
+  report.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
   if (summary.termination_type == ceres::NO_CONVERGENCE)
     report.degrade({ReasonCode::max_iterations, 1, static_cast<double>(report.iterations),
                     fmt::format("stopped after {} iterations", report.iterations)});

@@ -117,8 +117,6 @@ TEST(SceneMistakes, InValues) {
 TEST(SceneMistakes, InPoses) {
   const std::string pose = "shape: {mesh: a}\npose:\n  handles: [fix: y<1]\n  ";
   const Mistake mistakes[] = {
-      {"shape: {mesh: a}\npose: {}", "2:7", "pose.handles is missing"},
-      {"shape: {mesh: a}\npose: {handles: []}", "2:7", "pose.handles is missing"},
       {"shape: {mesh: a}\npose: {handles: {fix: y<1}}", "2:17",
        "pose.handles is a map, must be a "
        "list"},

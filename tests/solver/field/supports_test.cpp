@@ -57,7 +57,7 @@ TEST(Supports, ReachEveryPointByEnoughParticlesInGeneralPosition) {
   for (Index i = 0; i < both.size(); ++i)
     for (Index j = 0; j < both.size(); ++j)
       EXPECT_LE(std::abs(supports.radii[i] - supports.radii[j]),
-                0.5 * (both.positions.row(i) - both.positions.row(j)).norm() + 1e-12);
+                (both.positions.row(i) - both.positions.row(j)).norm() + 1e-12);
 }
 
 TEST(Supports, NameASheetThin) {
