@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace supple {
+
+/// What a case measured, by the figures' names.
+using Figures = std::map<std::string, double, std::less<>>;
+
+/// A hard case; its set-up stands beside its function, its limits in limits.cpp.
+struct Case {
+  std::string_view id;
+  void (*measure)(Figures& figures);
+};
+
+std::span<const Case> moment_matrix_cases();  ///< A: moving least squares
+std::span<const Case> pose_cases();           ///< C: poses
+std::span<const Case> input_cases();          ///< K: inputs and outputs
+
+}  // namespace supple
