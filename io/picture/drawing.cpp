@@ -1,0 +1,115 @@
+#include "io/picture/drawing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/picture/smooth_corners.h"
+#include "solver/core/check.h"
+
+namespace supple {
+namespace {
+
+constexpr double crease_angle_deg = 40;
+constexpr std::array<std::uint8_t, 4> clay = {238, 208, 178, 255};
+
+std::uint8_t to_byte(double value) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(value, 0.0, 1.0)));
+}
+
+std::array<std::uint8_t, 4> to_bytes(const Color& color) {
+  return {to_byte(color[0]), to_byte(color[1]), to_byte(color[2]), 255};
+}
+
+std::array<std::uint8_t, 4> vertex_color(const PictureItem& item, Index vertex) {
+  if (!item.vertex_colors.empty()) return to_bytes(item.vertex_colors[vertex]);
+  const auto& colors = item.mesh->colors.values;
+  if (colors.rows() != item.mesh->positions.rows()) return clay;
+  return {to_byte(colors(vertex, 0)), to_byte(colors(vertex, 1)), to_byte(colors(vertex, 2)), 255};
+}
+
+bool finite_row(const Points& points, Index row) {
+  return points.row(row).allFinite();
+}
+
+Triangles finite_triangles(const Mesh& mesh) {
+  Triangles triangles = triangulate(mesh).triangles;
+  Index kept = 0;
+  for (Index t = 0; t < triangles.rows(); ++t) {
+    const bool finite = finite_row(mesh.positions, triangles(t, 0)) &&
+                        finite_row(mesh.positions, triangles(t, 1)) &&
+                        finite_row(mesh.positions, triangles(t, 2));
+    if (finite) triangles.row(kept++) = triangles.row(t);
+  }
+  triangles.conservativeResize(kept, 3);
+  return triangles;
+}
+
+std::array<float, 3> local_position(const Drawing& drawing, const Points& points, Index row) {
+  const Vec3 x = (points.row(row).transpose() - drawing.origin) / drawing.size;
+  return {static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])};
+}
+
+Box finite_bounds(const PictureItem& item) {
+  Box box;
+  const auto extend = [&box](const Points& points) {
+    for (Index i = 0; i < points.rows(); ++i)
+      if (finite_row(points, i)) box.extend(points.row(i).transpose());
+  };
+  if (item.mesh != nullptr) extend(item.mesh->positions);
+  for (const Markers& markers : item.markers) extend(markers.positions);
+  return box;
+}
+
+void add_surface(const PictureItem& item, Drawing& drawing) {
+  const Points& positions = item.mesh->positions;
+  const Triangles triangles = finite_triangles(*item.mesh);
+  const SmoothCorners corners = smooth_corners(positions, triangles, crease_angle_deg);
+  drawing.vertices.reserve(corners.vertex.size());
+  for (std::size_t g = 0; g < corners.vertex.size(); ++g) {
+    const int v = corners.vertex[g];
+    const Eigen::Vector3f n = corners.normal[g].normalized().cast<float>();
+    drawing.vertices.push_back(
+        {local_position(drawing, positions, v), {n[0], n[1], n[2]}, vertex_color(item, v)});
+  }
+  drawing.indices.assign(corners.group.begin(), corners.group.end());
+}
+
+void add_cloud(const PictureItem& item, Drawing& drawing) {
+  const Points& positions = item.mesh->positions;
+  for (Index i = 0; i < positions.rows(); ++i)
+    if (finite_row(positions, i))
+      drawing.points.centers.push_back(
+          {local_position(drawing, positions, i), {}, vertex_color(item, i)});
+}
+
+void add_markers(const Markers& markers, Drawing& drawing) {
+  DrawnBalls balls{{}, markers.radius};
+  for (Index i = 0; i < markers.positions.rows(); ++i)
+    if (finite_row(markers.positions, i))
+      balls.centers.push_back(
+          {local_position(drawing, markers.positions, i), {}, to_bytes(markers.color)});
+  drawing.markers.push_back(std::move(balls));
+}
+
+}  // namespace
+
+Drawing make_drawing(const PictureItem& item) {
+  Drawing drawing;
+  const Box box = finite_bounds(item);
+  if (box.empty()) return drawing;
+  drawing.origin = box.center();
+  if (box.diagonal() > 0) drawing.size = box.diagonal();
+  if (item.mesh != nullptr) {
+    SUPPLE_CHECK(item.vertex_colors.empty() ||
+                     static_cast<Index>(item.vertex_colors.size()) == item.mesh->positions.rows(),
+                 "one colour a vertex");
+    if (item.mesh->face_count() > 0)
+      add_surface(item, drawing);
+    else
+      add_cloud(item, drawing);
+  }
+  for (const Markers& markers : item.markers) add_markers(markers, drawing);
+  return drawing;
+}
+
+}  // namespace supple

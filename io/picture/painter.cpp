@@ -1,0 +1,215 @@
+#include "io/picture/painter.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+
+#include "io/picture/contact_shadow.h"
+#include "io/picture/shaders.h"
+#include "solver/core/parallel.h"
+
+namespace supple {
+namespace {
+
+constexpr int fineness = 2;              // of the canvas, against the picture: smooths its edges
+constexpr double largest_ball_px = 120;  // OSMesa draws points up to 255 pixels wide
+
+constexpr float background_depth = -std::numeric_limits<float>::infinity();
+
+/// Vertices (and triangles) handed to OpenGL, ready to draw as long as this lives.
+class VertexArray {
+ public:
+  VertexArray(const Gl& gl, const std::vector<DrawnVertex>& vertices,
+              const std::vector<std::uint32_t>& indices = {})
+      : array_(gl.gen_vertex_arrays, gl.delete_vertex_arrays),
+        vertices_(gl.gen_buffers, gl.delete_buffers),
+        indices_(gl.gen_buffers, gl.delete_buffers) {
+    gl.bind_vertex_array(array_.id());
+    gl.bind_buffer(GL_ARRAY_BUFFER, vertices_.id());
+    fill(gl, GL_ARRAY_BUFFER, vertices);
+    gl.bind_buffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
+    fill(gl, GL_ELEMENT_ARRAY_BUFFER, indices);
+    set_attribute(gl, 0, 3, GL_FLOAT, offsetof(DrawnVertex, position));
+    set_attribute(gl, 1, 3, GL_FLOAT, offsetof(DrawnVertex, normal));
+    set_attribute(gl, 2, 4, GL_UNSIGNED_BYTE, offsetof(DrawnVertex, color));
+  }
+
+ private:
+  template <class Value>
+  static void fill(const Gl& gl, GLenum target, const std::vector<Value>& values) {
+    gl.buffer_data(target, static_cast<GLsizeiptr>(values.size() * sizeof(Value)), values.data(),
+                   GL_STATIC_DRAW);
+  }
+
+  static void set_attribute(const Gl& gl, GLuint index, GLint count, GLenum type,
+                            std::size_t offset) {
+    const GLboolean normalized = type == GL_UNSIGNED_BYTE;
+    gl.attribute_pointer(index, count, type, normalized, sizeof(DrawnVertex),
+                         reinterpret_cast<const void*>(offset));
+    gl.enable_attribute(index);
+  }
+
+  GlObject array_, vertices_, indices_;
+};
+
+/// The pixels of the canvas that become one pixel of the picture.
+struct FinePixels {
+  Index row_length, left, bottom;
+
+  std::uint8_t mean(const std::vector<std::uint8_t>& rgba, int channel) const {
+    int sum = fineness * fineness / 2;
+    for (Index y = bottom; y < bottom + fineness; ++y)
+      for (Index x = left; x < left + fineness; ++x)
+        sum += rgba[4 * (y * row_length + x) + channel];
+    return static_cast<std::uint8_t>(sum / (fineness * fineness));
+  }
+
+  float least(const std::vector<float>& values) const {
+    float least = values[bottom * row_length + left];
+    for (Index y = bottom; y < bottom + fineness; ++y)
+      for (Index x = left; x < left + fineness; ++x)
+        least = std::min(least, values[y * row_length + x]);
+    return least;
+  }
+};
+
+/// Calls body(pixel of the picture, top row first; pixels of the canvas that become it).
+template <class Body>
+void for_each_pixel(int width, int height, const Body& body) {
+  parallel_chunks(height, 16, [&](Index begin, Index end) {
+    for (Index y = begin; y < end; ++y)
+      for (Index x = 0; x < width; ++x)
+        body(y * width + x,
+             FinePixels{fineness * width, fineness * x, fineness * (height - 1 - y)});
+  });
+}
+
+void set_matrix(const Gl& gl, const GlProgram& program, const char* name,
+                const Eigen::Matrix4d& matrix) {
+  const Eigen::Matrix4f values = matrix.cast<float>();
+  gl.uniform_matrix4(program.uniform(name), 1, GL_FALSE, values.data());
+}
+
+}  // namespace
+
+Painter::Painter(int width, int height)
+    : width_(width),
+      height_(height),
+      gl_(context_.gl()),
+      background_(gl_, {shaders::background_vertex}, {shaders::background_fragment}),
+      surface_(gl_, {shaders::surface_vertex}, {shaders::lighting, shaders::surface_fragment}),
+      ball_(gl_, {shaders::ball_vertex}, {shaders::lighting, shaders::ball_fragment}),
+      ground_(gl_, {shaders::ground_vertex}, {shaders::ground_fragment}),
+      canvas_(gl_, fineness * width, fineness * height) {
+  gl_.enable(GL_PROGRAM_POINT_SIZE);
+  gl_.enable(GL_SCISSOR_TEST);
+  gl_.pixel_store(GL_PACK_ALIGNMENT, 1);
+  gl_.scissor(0, 0, fineness * width, fineness * height);
+  gl_.viewport(0, 0, fineness * width, fineness * height);
+  gl_.clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw_background();
+}
+
+void Painter::draw_background() const {
+  const VertexArray none(gl_, {});
+  background_.use();
+  gl_.draw_arrays(GL_TRIANGLES, 0, 3);
+}
+
+void Painter::use_column(const View& view, int column) const {
+  const int left = fineness * column * view.column_width;
+  gl_.viewport(left, 0, fineness * view.column_width, fineness * height_);
+  gl_.scissor(left, 0, fineness * view.column_width, fineness * height_);
+}
+
+void Painter::draw_shape(const Drawing& drawing, const View& view, const Place& place) const {
+  use_column(view, place.column);
+  if (!drawing.indices.empty()) {
+    if (place.ground_shadow && view.rotation.row(2).dot(view.up) > 0) draw_shadow(drawing, view);
+    draw_surface(drawing, view);
+  }
+  draw_balls(drawing, drawing.points, view);
+}
+
+void Painter::draw_markers(const Drawing& drawing, const View& view, int column) const {
+  use_column(view, column);
+  for (const DrawnBalls& balls : drawing.markers) draw_balls(drawing, balls, view);
+}
+
+void Painter::draw_surface(const Drawing& drawing, const View& view) const {
+  const Eigen::Matrix3f to_view = view.rotation.cast<float>();
+  const VertexArray array(gl_, drawing.vertices, drawing.indices);
+  surface_.use();
+  set_matrix(gl_, surface_, "to_clip", clip_from_world(view) * world_from_drawing(drawing));
+  gl_.uniform_matrix3(surface_.uniform("to_view"), 1, GL_FALSE, to_view.data());
+  gl_.enable(GL_DEPTH_TEST);
+  gl_.draw_elements(GL_TRIANGLES, static_cast<GLsizei>(drawing.indices.size()), GL_UNSIGNED_INT,
+                    nullptr);
+  gl_.disable(GL_DEPTH_TEST);
+}
+
+void Painter::draw_balls(const Drawing& drawing, const DrawnBalls& balls, const View& view) const {
+  if (balls.centers.empty()) return;
+  const VertexArray array(gl_, balls.centers);
+  const double radius = std::min(fineness * ball_radius_px(drawing, balls, view), largest_ball_px);
+  ball_.use();
+  set_matrix(gl_, ball_, "to_clip", clip_from_world(view) * world_from_drawing(drawing));
+  gl_.uniform_1f(ball_.uniform("radius_px"), static_cast<float>(radius));
+  gl_.uniform_1f(ball_.uniform("radius_depth"),
+                 static_cast<float>(radius / (2 * fineness * view.pixels_per_meter * view.depth)));
+  gl_.enable(GL_DEPTH_TEST);
+  gl_.draw_arrays(GL_POINTS, 0, static_cast<GLsizei>(balls.centers.size()));
+  gl_.disable(GL_DEPTH_TEST);
+}
+
+void Painter::draw_shadow(const Drawing& drawing, const View& view) const {
+  const GroundRect rect = ground_below(drawing, view);
+  if (rect.across.isZero(0)) return;
+  const std::vector<std::uint8_t> map = contact_shadow(drawing, rect, view);
+  const GlObject texture(gl_.gen_textures, gl_.delete_textures);
+  gl_.bind_texture(GL_TEXTURE_2D, texture.id());
+  gl_.texture_image(GL_TEXTURE_2D, 0, GL_R8, shadow_map_side, shadow_map_side, 0, GL_RED,
+                    GL_UNSIGNED_BYTE, map.data());
+  gl_.texture_parameter(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  gl_.texture_parameter(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl_.texture_parameter(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+
+  const VertexArray none(gl_, {});
+  ground_.use();
+  set_matrix(gl_, ground_, "to_clip", clip_from_world(view) * world_from_ground(rect));
+  gl_.enable(GL_BLEND);
+  gl_.blend_function(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl_.draw_arrays(GL_TRIANGLE_STRIP, 0, 4);
+  gl_.disable(GL_BLEND);
+}
+
+template <class Value>
+std::vector<Value> Painter::read_canvas(GLenum format, GLenum type, int channels) const {
+  const int width = fineness * width_, height = fineness * height_;
+  std::vector<Value> values(static_cast<std::size_t>(channels) * width * height);
+  gl_.read_pixels(0, 0, width, height, format, type, values.data());
+  return values;
+}
+
+std::vector<float> Painter::depth(const View& view) const {
+  const auto fine = read_canvas<float>(GL_DEPTH_COMPONENT, GL_FLOAT, 1);
+  const float scale = static_cast<float>(view.depth * view.pixels_per_meter);
+  std::vector<float> result(static_cast<std::size_t>(width_) * height_);
+  for_each_pixel(width_, height_, [&](Index pixel, const FinePixels& of) {
+    const float nearest = of.least(fine);
+    result[pixel] = nearest < 1 ? (1 - 2 * nearest) * scale : background_depth;
+  });
+  return result;
+}
+
+Picture Painter::picture() const {
+  const auto fine = read_canvas<std::uint8_t>(GL_RGBA, GL_UNSIGNED_BYTE, 4);
+  Picture result{width_, height_, {}};
+  result.rgb.resize(3 * static_cast<std::size_t>(width_) * height_);
+  for_each_pixel(width_, height_, [&](Index pixel, const FinePixels& of) {
+    for (int c = 0; c < 3; ++c) result.rgb[3 * pixel + c] = of.mean(fine, c);
+  });
+  return result;
+}
+
+}  // namespace supple

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/mesh/mesh.h"
+
+namespace supple {
+
+/// Red, green, blue in [0, 1].
+using Color = std::array<float, 3>;
+
+/// Points drawn as small balls over the surface: handles, particles.
+struct Markers {
+  Points positions = {};  ///< [m], n×3
+  Color color{1, 0, 0};
+  double radius = 0;  ///< [m]; 0: a share of the picture's size that reads well
+};
+
+/// One view of the picture, drawn left to right. A mesh without faces is drawn as small balls.
+struct PictureItem {
+  const Mesh* mesh = nullptr;
+  std::vector<Markers> markers = {};
+  std::string label = {};                 ///< small text below the view
+  std::vector<Color> vertex_colors = {};  ///< empty: the mesh's own, else plain clay
+};
+
+/// An orthographic camera that fits all items into the picture.
+struct Camera {
+  double azimuth_deg = 30;    ///< about `up`; 0 looks along −z where y is up, along +y where z is
+  double elevation_deg = 15;  ///< −90 to 90
+  Vec3 up = Vec3::UnitY();    ///< any length but 0
+  double zoom = 1;            ///< > 0; above 1 parts may be cut off
+};
+
+struct PictureOptions {
+  int width = 1280, height = 720;  ///< [px]
+  Camera camera;
+  bool ground_shadow = true;  ///< soft shade below the shapes, where seen from above
+};
+
+/// Width × height RGB bytes, top row first.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+/// Draws the items side by side with one camera and one scale, on the processor (OSMesa, loaded
+/// at the first call). Surfaces are shaded by their geometry, smooth but for creases of 40°; what
+/// touches a coordinate that is not finite is left out.
+/// Errors: UsageError for a size or camera that cannot be; OutputError where OSMesa cannot be had.
+Picture render(const std::vector<PictureItem>& items, const PictureOptions& options = {});
+
+/// Errors: OutputError.
+void write_png(const Picture& picture, const std::filesystem::path& path);
+
+}  // namespace supple

@@ -1,0 +1,122 @@
+#pragma once
+
+#include <string_view>
+
+namespace supple::shaders {
+
+/// Fills the picture without any input.
+inline constexpr std::string_view background_vertex = R"(#version 330 core
+out float height;
+void main() {
+  vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  height = 0.5 + 0.5 * corner.y;
+  gl_Position = vec4(corner, 1.0, 1.0);
+}
+)";
+
+inline constexpr std::string_view background_fragment = R"(#version 330 core
+in float height;
+out vec4 pixel;
+void main() {
+  pixel = vec4(mix(vec3(0.902, 0.910, 0.925), vec3(0.988, 0.988, 0.992), height), 1.0);
+}
+)";
+
+/// Light on a matt surface: a warm key light from the upper left, a cool fill light from the
+/// right, a rim light from behind, a sky above and a floor below. Colours are sRGB at both ends.
+/// `n` is the normal as the viewer sees it (x right, y up, z towards the viewer).
+inline constexpr std::string_view lighting = R"(#version 330 core
+float wrapped(vec3 n, vec3 light, float wrap) {
+  return max(0.0, (dot(n, normalize(light)) + wrap) / (1.0 + wrap));
+}
+vec3 shade(vec3 n, vec3 color) {
+  vec3 albedo = pow(color, vec3(2.2));
+  vec3 light = mix(vec3(0.13, 0.11, 0.10), vec3(0.32, 0.34, 0.38), 0.5 + 0.5 * n.y);
+  light += vec3(0.92, 0.87, 0.80) * wrapped(n, vec3(-0.55, 0.65, 0.75), 0.2);
+  light += vec3(0.12, 0.14, 0.18) * wrapped(n, vec3(0.9, 0.0, 0.5), 0.3);
+  light += vec3(0.20) * pow(1.0 - abs(n.z), 3.0) * wrapped(n, vec3(0.5, 0.6, -0.5), 0.2);
+  vec3 halfway = normalize(normalize(vec3(-0.55, 0.65, 0.75)) + vec3(0.0, 0.0, 1.0));
+  float gloss = 0.05 * pow(max(dot(n, halfway), 0.0), 24.0);
+  return pow(min(albedo * light + gloss, 1.0), vec3(1.0 / 2.2));
+}
+)";
+
+inline constexpr std::string_view surface_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 color;
+uniform mat4 to_clip;
+uniform mat3 to_view;
+out vec3 seen_normal;
+out vec3 seen_color;
+void main() {
+  seen_normal = to_view * normal;
+  seen_color = color.rgb;
+  gl_Position = to_clip * vec4(position, 1.0);
+}
+)";
+
+/// Both sides are lit; the inner one, seen through a hole, is darker.
+inline constexpr std::string_view surface_fragment = R"(
+in vec3 seen_normal;
+in vec3 seen_color;
+out vec4 pixel;
+void main() {
+  float size = length(seen_normal);
+  vec3 n = size > 1e-6 ? seen_normal / size : vec3(0.0, 0.0, 1.0);
+  vec3 color = seen_color;
+  if (!gl_FrontFacing) {
+    n = -n;
+    color *= vec3(0.62, 0.64, 0.70);
+  }
+  pixel = vec4(shade(n, color), 1.0);
+}
+)";
+
+/// A ball is one square point of the right size, lit and cut out by pixel.
+inline constexpr std::string_view ball_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec4 color;
+uniform mat4 to_clip;
+uniform float radius_px;
+out vec3 seen_color;
+void main() {
+  seen_color = color.rgb;
+  gl_PointSize = 2.0 * radius_px;
+  gl_Position = to_clip * vec4(position, 1.0);
+}
+)";
+
+/// The ball stands in front of its centre by one more radius, so that one that lies on a surface
+/// is not half sunk in it.
+inline constexpr std::string_view ball_fragment = R"(
+in vec3 seen_color;
+uniform float radius_depth;
+out vec4 pixel;
+void main() {
+  vec2 across = (2.0 * gl_PointCoord - 1.0) * vec2(1.0, -1.0);
+  float square = dot(across, across);
+  if (square > 1.0) discard;
+  vec3 n = vec3(across, sqrt(1.0 - square));
+  gl_FragDepth = gl_FragCoord.z - radius_depth * (1.0 + n.z);
+  pixel = vec4(shade(n, seen_color), 1.0);
+}
+)";
+
+inline constexpr std::string_view ground_vertex = R"(#version 330 core
+uniform mat4 to_clip;
+out vec2 place;
+void main() {
+  place = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = to_clip * vec4(place, 0.0, 1.0);
+}
+)";
+
+inline constexpr std::string_view ground_fragment = R"(#version 330 core
+in vec2 place;
+uniform sampler2D shadow;
+out vec4 pixel;
+void main() { pixel = vec4(vec3(0.24, 0.21, 0.22), 0.55 * texture(shadow, place).r); }
+)";
+
+}  // namespace supple::shaders

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "io/picture/drawing.h"
+
+namespace supple {
+
+/// How space maps to the picture, the same for every item: an orthographic camera, so that
+/// lengths can be compared from view to view.
+struct View {
+  Mat3 rotation;                ///< rows: to the right, up, towards the viewer
+  Vec3 up;                      ///< unit vector
+  Vec3 center = Vec3::Zero();   ///< [m], drawn in the middle of each column, above its label
+  double pixels_per_meter = 1;  ///< [px/m]
+  double depth = 1;             ///< [m] half the range of depths drawn
+  double ground = 0;            ///< [m] the least up·x of all items
+  int column_width = 0;         ///< [px]
+  int height = 0;               ///< [px] of the whole picture
+  int label_height = 0;         ///< [px] of its lower edge, where the labels stand
+};
+
+/// Turns the camera as asked and chooses the scale that fits all drawings into their columns.
+View fit_view(const std::vector<Drawing>& drawings, const PictureOptions& options,
+              int label_height);
+
+/// The balls' radius in pixels: their own, or one that suits their number and spread.
+double ball_radius_px(const Drawing& drawing, const DrawnBalls& balls, const View& view);
+
+/// [m] → OpenGL's clip coordinates of a column.
+Eigen::Matrix4d clip_from_world(const View& view);
+
+}  // namespace supple
