@@ -3,7 +3,7 @@ add_library(supple_options INTERFACE)
 target_compile_options(supple_options INTERFACE -Wall -Wextra -Werror -ffp-contract=off)
 # g++ 12 sees overruns in std::string that are not there (GCC bug 105651); clang keeps looking.
 target_compile_options(supple_options INTERFACE
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-restrict -Wno-stringop-overflow>)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread>)
 target_include_directories(supple_options INTERFACE ${PROJECT_SOURCE_DIR})
 
 # Fixed alignment, so that Eigen values can cross between code built for different processors.
