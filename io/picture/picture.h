@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/mesh/mesh.h"
+#include "solver/core/describe.h"
 
 namespace supple {
 
@@ -31,16 +32,36 @@ struct PictureItem {
 
 /// An orthographic camera that fits all items into the picture.
 struct Camera {
-  double azimuth_deg = 30;    ///< about `up`; 0 looks along −z where y is up, along +y where z is
-  double elevation_deg = 15;  ///< −90 to 90
-  Vec3 up = Vec3::UnitY();    ///< any length but 0
-  double zoom = 1;            ///< > 0; above 1 parts may be cut off
+  double azimuth_deg = 30;
+  double elevation_deg = 15;
+  Vec3 up = Vec3::UnitY();
+  double zoom = 1;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("azimuth_deg", self.azimuth_deg,
+          {.doc = "about `up`; 0 looks along −z where y is up, along +y where z is", .unit = "°"});
+    visit("elevation_deg", self.elevation_deg,
+          {.doc = "above the horizon", .unit = "°", .min = -90, .max = 90});
+    visit("up", self.up, {.doc = "upward direction, any length but 0"});
+    visit("zoom", self.zoom,
+          {.doc = "above 1 parts may be cut off", .min = 0, .exclusive_min = true});
+  }
 };
 
 struct PictureOptions {
-  int width = 1280, height = 720;  ///< [px]
+  int width = 1280, height = 720;
   Camera camera;
-  bool ground_shadow = true;  ///< soft shade below the shapes, where seen from above
+  bool ground_shadow = true;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("width", self.width, {.doc = "of the picture", .unit = "px", .min = 1});
+    visit("height", self.height, {.doc = "of the picture", .unit = "px", .min = 1});
+    visit("camera", self.camera, {.doc = "where it is seen from"});
+    visit("ground_shadow", self.ground_shadow,
+          {.doc = "soft shade below the shapes, where seen from above"});
+  }
 };
 
 /// Width × height RGB bytes, top row first.

@@ -47,6 +47,7 @@ void check_rules(const ShapeSpec& shape, const SceneItem& item) {
 
 void check_rules(const PoseSpec& pose, const SceneItem& item) {
   if (pose.hard_handles) refuse_for_now(item, "hard_handles", "true");
+  if (pose.solver == MinimizerKind::nlopt) refuse_for_now(item, "solver", "nlopt");
 }
 
 void check_rules(const HandleSpec& handle, const SceneItem& item) {

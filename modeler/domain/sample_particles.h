@@ -2,16 +2,28 @@
 
 #include <cstdint>
 
+#include "solver/core/describe.h"
 #include "solver/core/rest_shape.h"
 
 namespace supple {
 
 struct ParticleSamplingOptions {
-  int count = 200;         ///< how many, unless `spacing` is positive
-  double spacing = 0;      ///< distance of neighbours s [m]
-  int relaxations = 20;    ///< Lloyd steps at most
-  int candidates = 64;     ///< sample points of the volume a particle, for cells and distances
+  int count = 200;
+  double spacing = 0;
+  int relaxations = 20;
+  int candidates = 64;
   std::uint64_t seed = 1;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("count", self.count, {.doc = "how many, unless a spacing is given", .min = 1});
+    visit("spacing", self.spacing,
+          {.doc = "distance of neighbours s; 0: as the count asks", .unit = "m", .min = 0});
+    visit("relaxations", self.relaxations, {.doc = "Lloyd steps at most", .min = 0});
+    visit("candidates", self.candidates,
+          {.doc = "sample points of the volume a particle, for cells and distances", .min = 8});
+    visit("seed", self.seed, {.doc = "of the sample points' places"});
+  }
 };
 
 /// Particles spread evenly through a region, and how evenly.

@@ -13,8 +13,8 @@ namespace supple {
 struct SelectionContext {
   const Mesh& mesh;
   const Triangulation& triangulation;
-  Box box;                        ///< of the mesh's positions
-  std::filesystem::path folder;   ///< that vertices(file) is relative to
+  Box box;                       ///< of the mesh's positions
+  std::filesystem::path folder;  ///< that vertices(file) is relative to
 };
 
 /// Indices of the samples inside `selection`, ascending. vertices(file) takes the samples whose

@@ -8,8 +8,8 @@ namespace supple {
 
 /// Points spread over a surface, each standing for a piece of its area.
 struct SurfaceSamples {
-  Points positions;          ///< [m], n×3
-  Eigen::VectorXd areas;     ///< [m²], n
+  Points positions;            ///< [m], n×3
+  Eigen::VectorXd areas;       ///< [m²], n
   std::vector<int> triangles;  ///< the triangle each lies in
   std::vector<int> vertices;   ///< that triangle's corner nearest to it
   Index size() const { return positions.rows(); }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/core/describe.h"
 #include "solver/core/rest_shape.h"
 
 namespace supple {
@@ -27,9 +28,16 @@ struct VolumeSamples {
 };
 
 struct VolumeSampleOptions {
-  double width = 0;        ///< edge of the smallest cells [m]
-  Index enough = 0;        ///< cells are not halved once they are this many
-  std::uint64_t seed = 1;  ///< of the samples' places in the inner cells
+  double width = 0;
+  Index enough = 0;
+  std::uint64_t seed = 1;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("width", self.width, {.doc = "edge of the smallest cells", .unit = "m", .min = 0});
+    visit("enough", self.enough, {.doc = "cells are not halved once they are so many", .min = 0});
+    visit("seed", self.seed, {.doc = "of the samples' places in the inner cells"});
+  }
 };
 
 /// One sample or more for each octree cell that the region touches. Cells at the boundary are

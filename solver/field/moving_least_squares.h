@@ -27,6 +27,12 @@ struct ShapeFunctions {
 struct MovingLeastSquaresOptions {
   BasisOrder order = BasisOrder::linear;
   KernelKind kernel = KernelKind::polynomial;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("order", self.order, {.doc = "polynomials that the field reproduces exactly"});
+    visit("kernel", self.kernel, {.doc = "weight function"});
+  }
 };
 
 /// Moving least squares shape functions φ_i(x) over particles with their own support radii.

@@ -1,17 +1,32 @@
 #pragma once
 
+#include "solver/core/describe.h"
 #include "solver/core/export.h"
 #include "solver/field/moving_least_squares.h"
 
 namespace supple {
 
 struct SupportOptions {
-  double neighbors = 25;    ///< mean number of particles that reach a point inside
-  int least_neighbors = 8;  ///< that reach every covered point, at least
-  double most_slope = 60;  ///< of the shape functions: greatest h·Σ|∇φ_j|, h the usual support
-  double growth = 1.15;    ///< of a support in one round
-  int rounds = 12;         ///< of growth at most
-  double smoothness = 1;   ///< by how much supports may differ over a distance
+  double neighbors = 25;
+  int least_neighbors = 8;
+  double most_slope = 60;
+  double growth = 1.15;
+  int rounds = 12;
+  double smoothness = 1;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("neighbors", self.neighbors,
+          {.doc = "mean number of particles that reach a point inside", .min = 1});
+    visit("least_neighbors", self.least_neighbors,
+          {.doc = "particles that reach every covered point, at least", .min = 1});
+    visit("most_slope", self.most_slope,
+          {.doc = "greatest h·Σ|∇φ_j| of the shape functions, h the usual support", .min = 1});
+    visit("growth", self.growth, {.doc = "of a support in one round", .min = 1.01, .max = 2});
+    visit("rounds", self.rounds, {.doc = "rounds of growth at most", .min = 0, .max = 100});
+    visit("smoothness", self.smoothness,
+          {.doc = "by how much supports may differ over a distance", .min = 0.01});
+  }
 };
 
 struct Supports {

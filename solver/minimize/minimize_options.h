@@ -14,6 +14,14 @@ struct MinimizeOptions {
   MinimizerKind kind = MinimizerKind::lbfgs;
   int max_iterations = 2000;
   double tolerance = 1e-6;  ///< relative change of the energy between iterations
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("kind", self.kind, {.doc = "minimiser"});
+    visit("max_iterations", self.max_iterations, {.doc = "limit for one solve", .min = 1});
+    visit("tolerance", self.tolerance,
+          {.doc = "relative change of energy at which a solve stops", .min = 1e-15, .max = 0.1});
+  }
 };
 
 }  // namespace supple

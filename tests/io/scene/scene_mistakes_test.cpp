@@ -125,6 +125,7 @@ TEST(SceneMistakes, InPoses) {
       {pose + "hard_handles: yes", "4:17", "'yes'; allowed: true, false"},
       {pose + "hard_handles: True", "4:17", "'True'; allowed: true, false; did you mean 'true'?"},
       {pose + "hard_handles: \"true\"", "4:17", "allowed: true, false"},
+      {pose + "solver: nlopt", "4:11", "pose.solver: nlopt is not available yet"},
       {pose + "solver: lbfg", "4:11", "allowed: lbfgs, trust_region, nlopt; did you mean 'lbfgs'?"},
       {pose + "region: y<1", "4:3", "pose.region is not available yet"},
       {pose + "weights: {rigidity: 0}", "4:23", "pose.weights.rigidity = 0, must be > 0"},

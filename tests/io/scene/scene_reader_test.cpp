@@ -94,7 +94,7 @@ TEST(SceneReader, ReadsEveryKey) {
       "      scale: 2\n"
       "    - {move: x>1, scale: [1, 2, +.5]}\n"
       "  weights: {volume: 0}\n"
-      "  solver: nlopt\n"
+      "  solver: trust_region\n"
       "  max_iterations: 7\n"
       "  tolerance: 1.0e-8\n"
       "  substeps: 3\n"
@@ -117,7 +117,7 @@ TEST(SceneReader, ReadsEveryKey) {
   EXPECT_EQ(scene.pose->handles[2].scale, Vec3(1, 2, 0.5));
   EXPECT_EQ(scene.pose->weights.volume, 0);
   EXPECT_EQ(scene.pose->weights.handles, 1e4);
-  EXPECT_EQ(scene.pose->solver, MinimizerKind::nlopt);
+  EXPECT_EQ(scene.pose->solver, MinimizerKind::trust_region);
   EXPECT_EQ(scene.pose->max_iterations, 7);
   EXPECT_EQ(scene.pose->tolerance, 1e-8);
   EXPECT_EQ(scene.pose->substeps, 3);
