@@ -18,7 +18,7 @@ namespace {
 }  // namespace
 
 std::span<const std::string_view> later_keys(const Scene&) {
-  static constexpr std::array<std::string_view, 2> keys{"motion", "simulate"};
+  static constexpr std::array<std::string_view, 4> keys{"motion", "simulate", "fracture", "shell"};
   return keys;
 }
 

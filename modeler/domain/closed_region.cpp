@@ -41,11 +41,13 @@ bool closed_but_for_turning(const std::vector<BoundaryEdge>& edges) {
                      [](const BoundaryEdge& edge) { return edge.excess % 2 == 0; });
 }
 
-std::string open_message(const std::vector<BoundaryEdge>& edges, const Points& positions,
-                         const Vec3& center) {
-  const Vec3 a = positions.row(edges[0].a), b = positions.row(edges[0].b);
-  const Vec3 at = 0.5 * (a + b) + center;
-  const std::string where = fmt::format("({:.6g}, {:.6g}, {:.6g})", at.x(), at.y(), at.z());
+/// The caller may have scaled the shape: a vertex's number is what the user can find.
+std::string open_message(const std::vector<BoundaryEdge>& edges, const Points& welded,
+                         const Points& vertices, const Vec3& center) {
+  Index vertex = 0;
+  const Eigen::RowVector3d place = welded.row(edges[0].a) + center.transpose();
+  (vertices.rowwise() - place).rowwise().squaredNorm().minCoeff(&vertex);
+  const std::string where = fmt::format("vertex {} (counted from 0)", vertex);
   if (closed_but_for_turning(edges))
     return fmt::format(
         "the faces are not turned one way: at {} edges, for example at {}, two neighbours look to "
@@ -139,7 +141,7 @@ ClosedRegion::ClosedRegion(const Points& positions, const Triangles& triangles) 
 
   Triangles solid = with_area(surface.positions, surface.triangles);
   const std::vector<BoundaryEdge> edges = open_edges(surface, solid);
-  if (!edges.empty()) throw ShapeError(open_message(edges, surface.positions, center));
+  if (!edges.empty()) throw ShapeError(open_message(edges, surface.positions, positions, center));
   SurfaceDefects defects;
   defects.degenerate_faces = triangles.rows() - solid.rows();
 

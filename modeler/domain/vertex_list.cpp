@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "io/errors.h"
 #include "io/scene/complaint.h"
 
 namespace supple {
@@ -31,7 +32,8 @@ std::vector<char> read_vertex_list(const std::filesystem::path& path, int vertex
                                    const Place& place) {
   std::ifstream file(path);
   if (!file || std::filesystem::is_directory(path))
-    complain(place, fmt::format("the vertex list {} cannot be read", in_quotes(path.string())));
+    throw InputError(fmt::format("{}: the vertex list {} cannot be read", to_string(place),
+                                 in_quotes(path.string())));
   std::vector<char> listed(vertex_count, 0);
   constexpr const char* blanks = " \t\r\v\f";
   std::string line;

@@ -96,6 +96,10 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
     book(result.effects, name, share * taken.count());
   report.notes.push_back(
       fmt::format("handles walked in {} step{}", substeps, substeps == 1 ? "" : "s"));
+  if (solver.loose_particles() > 0)
+    report.notes.push_back(
+        fmt::format("{} of {} particles are in pieces without handles: they stay",
+                    solver.loose_particles(), u.rows()));
   return report;
 }
 
@@ -141,6 +145,35 @@ InversionCount worst_inversion(const Solid& solid, const SolidField& field, cons
   return worst;
 }
 
+long handles_missed(const PoseResult& result) {
+  return std::count_if(result.handles.begin(), result.handles.end(), [](const HandleResidual& h) {
+    return h.max_error > reason_limit(ReasonCode::handle_miss);
+  });
+}
+
+/// Points of the field that no particle reaches, or that too few span.
+void judge_cover(const Solid& solid, const SolidField& field, Report& report) {
+  const double sampled = static_cast<double>(field.quadrature.size() + solid.vertices().rows());
+  const long lost = field.quadrature.rank_lost + field.surface.rank_lost();
+  if (static_cast<double>(lost) > reason_limit(ReasonCode::rank_lost) * sampled)
+    report.degrade({ReasonCode::rank_lost, lost, static_cast<double>(lost) / sampled,
+                    fmt::format("at {} points the particles near do not span the field's basis; "
+                                "more particles help",
+                                lost)});
+  // Vertices that no face uses may lie anywhere; the solid notes them.
+  const long unused = std::count(solid.used_vertices().begin(), solid.used_vertices().end(), false);
+  const long uncovered =
+      field.quadrature.uncovered + std::max(0L, field.surface.uncovered() - unused);
+  if (static_cast<double>(uncovered) > reason_limit(ReasonCode::uncovered))
+    report.degrade({ReasonCode::uncovered, uncovered, static_cast<double>(uncovered),
+                    fmt::format("{} points lie outside all supports and follow the nearest "
+                                "particle",
+                                uncovered)});
+}
+
+/// Beyond this a change of volume is worth a word: the volume weight is a preference.
+constexpr double notable_volume_change = 0.05;
+
 void judge(const Solid& solid, const SolidField& field, const InversionCount& inversion,
            PoseResult& result) {
   Report& report = result.report;
@@ -149,16 +182,14 @@ void judge(const Solid& solid, const SolidField& field, const InversionCount& in
                     fmt::format("{} points are turned inside out, the worst with det F = {:.3g}",
                                 inversion.inverted, inversion.min_det_F)});
   if (result.handle_max_error > reason_limit(ReasonCode::handle_miss))
-    report.degrade({ReasonCode::handle_miss, 1, result.handle_max_error,
+    report.degrade({ReasonCode::handle_miss, handles_missed(result), result.handle_max_error,
                     fmt::format("a handle misses its place by {:.2g} % of the diagonal",
                                 100 * result.handle_max_error)});
-  const double sampled = static_cast<double>(field.quadrature.size() + solid.vertices().rows());
-  const long lost = field.quadrature.rank_lost + field.surface.rank_lost();
-  if (static_cast<double>(lost) > reason_limit(ReasonCode::rank_lost) * sampled)
-    report.degrade({ReasonCode::rank_lost, lost, static_cast<double>(lost) / sampled,
-                    fmt::format("at {} points the particles near do not span the field's basis; "
-                                "more particles help",
-                                lost)});
+  judge_cover(solid, field, report);
+  const double change = result.volume_after / result.volume_before - 1;
+  if (std::abs(change) > notable_volume_change)
+    report.notes.push_back(fmt::format(
+        "the volume changed by {:+.1f} %: a greater weights.volume keeps it better", 100 * change));
   if (!result.mesh.positions.allFinite())
     report.fail({ReasonCode::not_finite, 1, 0, "a deformed vertex is not finite"});
   report.finish();

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <vector>
 
 #include "modeler/pose/handles.h"
 #include "solver/core/report.h"
@@ -8,6 +10,7 @@
 #include "solver/energy/handle.h"
 #include "solver/energy/rigidity.h"
 #include "solver/energy/volume.h"
+#include "solver/minimize/minimize.h"
 
 namespace supple {
 
@@ -24,17 +27,26 @@ class PoseSolver {
   PoseSolver& operator=(const PoseSolver&) = delete;
 
   /// Walks the handles from rest to their places in `substeps` steps, each starting from the one
-  /// before; `u` [N×3] holds the pose then. `on_step` is told the share done.
+  /// before; `u` [N×3] holds the pose then. A step after which the shape sprang to another pose
+  /// is taken again in halves; where that does not help the report says turn_lost. `on_step` is
+  /// told the share done.
   Report solve(const MinimizeOptions& options, int substeps,
                const std::function<void(double share)>& on_step, Points& u);
 
   const Samples& handle_samples() const { return handle_samples_; }
 
-  /// How much of one evaluation's time each term takes, by its name; the shares sum to 1.
+  /// Particles in pieces of the shape without any handle: nothing moves them.
+  long loose_particles() const { return std::count(held_.begin(), held_.end(), false); }
+
+  /// An estimate of each term's share in the solve, by the time that one evaluation takes.
   std::vector<std::pair<std::string, double>> time_shares(const Points& u) const;
 
  private:
-  /// Moves `u` along with the handles as one body where that is nearer to the new minimum.
+  /// Brings the handles from one share of their way to the next and minimises.
+  Report step(const Preconditioner& preconditioner, const MinimizeOptions& options, double from,
+              double to, Points& u);
+  /// Moves what hangs together with handles along with them as one body, where that is nearer to
+  /// the new minimum.
   void predict(const Points& targets_before, const Points& targets, Points& u) const;
 
   const Points& particles_;
@@ -44,6 +56,7 @@ class PoseSolver {
   RigidityEnergy rigidity_;
   VolumeEnergy volume_;
   EnergySum energy_;
+  std::vector<bool> held_;  ///< particles that hang together with a handle
 };
 
 }  // namespace supple

@@ -1,6 +1,7 @@
 #include "modeler/pose/solid.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -29,6 +30,13 @@ std::vector<bool> vertices_of_faces(const Mesh& mesh) {
   return used;
 }
 
+/// Of the vertices that faces use: others would distort every percent and every weight.
+Box box_of_faces(const Mesh& mesh) {
+  Box box;
+  for (const int vertex : mesh.face_vertices) box.extend(mesh.positions.row(vertex).transpose());
+  return box;
+}
+
 ParticleSamplingOptions sampling_options(const ShapeSpec& spec, double diagonal, double unit) {
   ParticleSamplingOptions options;
   options.count = spec.particles.value_or(default_particles);
@@ -40,7 +48,7 @@ ParticleSamplingOptions sampling_options(const ShapeSpec& spec, double diagonal,
 
 Mesh sized(const Mesh& mesh, const ShapeSpec& spec) {
   if (!spec.size) return mesh;
-  const Box box = bounding_box(mesh.positions);
+  const Box box = box_of_faces(mesh);
   const double scale = resolve(*spec.size, box.diagonal()) / box.diagonal();
   Mesh sized = mesh;
   sized.positions = (mesh.positions.rowwise() - box.center().transpose()) * scale;
@@ -49,14 +57,15 @@ Mesh sized(const Mesh& mesh, const ShapeSpec& spec) {
 
 Solid::Solid(const Mesh& mesh, const ShapeSpec& spec)
     : triangulation_(triangulate(mesh)),
-      box_(bounding_box(mesh.positions)),
+      used_(vertices_of_faces(mesh)),
+      box_(box_of_faces(mesh)),
       origin_(box_.center().transpose()),
-      unit_(box_.diagonal()),
-      used_(vertices_of_faces(mesh)) {
+      unit_(box_.diagonal()) {
   if (triangulation_.triangles.rows() == 0)
     throw ShapeError(
         "the shape has no faces, so it encloses no solid; point clouds cannot be posed yet");
   if (!(unit_ > 0)) throw ShapeError("all vertices of the shape lie at one place");
+  if (!std::isfinite(unit_)) throw ShapeError("the shape is too large to compute with");
   vertices_ = scaled(mesh.positions);
   sample(spec);
   surface_ = sample_surface(vertices_, triangulation_.triangles,
@@ -118,7 +127,8 @@ Quadrature Solid::quadrature(QuadratureKind kind) const {
   quadrature.volumes.conservativeResize(quadrature.points.rows());
   for (Index k = 0; k < surface.rows(); ++k) {
     const int owner = owners[static_cast<std::size_t>(k)];
-    quadrature.volumes[particles_.size() + k] = surface_share * particles_.volumes[owner] / owned[owner];
+    quadrature.volumes[particles_.size() + k] =
+        surface_share * particles_.volumes[owner] / owned[owner];
   }
   for (Index i = 0; i < particles_.size(); ++i)
     if (owned[i] > 0) quadrature.volumes[i] *= 1 - surface_share;

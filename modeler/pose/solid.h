@@ -53,11 +53,11 @@ class Solid {
   Points spread_over_surface(double width) const;
 
   Triangulation triangulation_;
+  std::vector<bool> used_;
   Box box_;
   Eigen::RowVector3d origin_;
   double unit_;
   Points vertices_;
-  std::vector<bool> used_;
   SurfaceSamples surface_;
   Particles particles_;
   std::vector<std::string> notes_;

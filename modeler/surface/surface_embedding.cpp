@@ -1,5 +1,7 @@
 #include "modeler/surface/surface_embedding.h"
 
+#include "solver/core/check.h"
+
 namespace supple {
 namespace {
 
@@ -22,30 +24,29 @@ RigidMotion rigid_part(const Points& rest, const Points& u, const Eigen::VectorX
 
 }  // namespace
 
-SurfaceEmbedding::SurfaceEmbedding(const MovingLeastSquares<3>& field, const Samples& particles_at,
+SurfaceEmbedding::SurfaceEmbedding(const MovingLeastSquares<3>& field, const Samples& quadrature,
                                    const Points& vertices, SurfaceKind kind)
     : kind_(kind),
       order_(field.options().order),
-      particles_at_(particles_at),
-      blocks_(weighting_field(field, kind), vertices) {}
+      quadrature_(quadrature),
+      blocks_(weighting_field(field, kind), vertices) {
+  SUPPLE_CHECK(quadrature.size() >= field.positions().rows(), "the particles come first");
+}
 
 DeformedSurface SurfaceEmbedding::deform(const Points& u, const Eigen::VectorXd& volumes) const {
-  if (u.isZero(0)) {
-    // Nothing moved: not even rounding may show.
-    return kind_ == SurfaceKind::field ? follow_field(u, RigidMotion())
-                                       : follow_particles(u, RigidMotion());
-  }
   const bool reproduces_turns =
       kind_ == SurfaceKind::particle_gradients || order_ != BasisOrder::constant;
+  // Where nothing moved, not even rounding may show.
   const RigidMotion rigid =
-      rigid_part(particles_at_.points.topRows(u.rows()), u, volumes, reproduces_turns);
+      u.isZero(0) ? RigidMotion()
+                  : rigid_part(quadrature_.points.topRows(u.rows()), u, volumes, reproduces_turns);
   return kind_ == SurfaceKind::field ? follow_field(u, rigid) : follow_particles(u, rigid);
 }
 
 DeformedSurface SurfaceEmbedding::follow_field(const Points& u, const RigidMotion& rigid) const {
   ParticleValues<3> remainder(u.rows(), 3);
   for (Index j = 0; j < u.rows(); ++j) {
-    const Vec3 x = particles_at_.points.row(j).transpose();
+    const Vec3 x = quadrature_.points.row(j).transpose();
     const Vec3 moved = u.row(j).transpose() - ((rigid.R - Mat3::Identity()) * x + rigid.t);
     remainder.row(j) = moved.cast<float>().transpose();
   }
@@ -59,10 +60,10 @@ DeformedSurface SurfaceEmbedding::follow_particles(const Points& u,
                                                    const RigidMotion& rigid) const {
   ParticleValues<12> maps(u.rows(), 12);
   for (Index j = 0; j < u.rows(); ++j) {
-    const Vec3 x = particles_at_.points.row(j).transpose();
-    const Mat3 B = particles_at_.deformation_gradient(j, u) - rigid.R;
+    const Vec3 x = quadrature_.points.row(j).transpose();
+    const Mat3 B = quadrature_.deformation_gradient(j, u) - rigid.R;
     const Vec3 b =
-        particles_at_.displacement(j, u) - ((rigid.R - Mat3::Identity()) * x + rigid.t) - B * x;
+        quadrature_.displacement(j, u) - ((rigid.R - Mat3::Identity()) * x + rigid.t) - B * x;
     maps.row(j).head<3>() = b.cast<float>().transpose();
     for (int a = 0; a < 3; ++a) maps.row(j).segment<3>(3 + 3 * a) = B.row(a).cast<float>();
   }

@@ -21,9 +21,9 @@ struct DeformedSurface {
 /// affine maps of the particles nearby, Σ ω̄_j (f(x_j) + F(x_j)(x − x_j)) (alternative 2, Eq. 68).
 class SurfaceEmbedding {
  public:
-  /// `particles_at` are samples with gradients whose first ones are at the particles themselves,
+  /// `quadrature` are samples with gradients whose first ones are at the particles themselves,
   /// in their order; they outlive the embedding.
-  SurfaceEmbedding(const MovingLeastSquares<3>& field, const Samples& particles_at,
+  SurfaceEmbedding(const MovingLeastSquares<3>& field, const Samples& quadrature,
                    const Points& vertices, SurfaceKind kind);
 
   /// Follows displacements `u` [m] N×3; `volumes` weigh the particles in the rigid part.
@@ -39,7 +39,7 @@ class SurfaceEmbedding {
 
   SurfaceKind kind_;
   BasisOrder order_;
-  const Samples& particles_at_;
+  const Samples& quadrature_;
   BlockedField blocks_;
 };
 

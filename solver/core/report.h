@@ -18,6 +18,8 @@ enum class ReasonCode {
   uncovered,       ///< a point lies outside all supports
   rank_lost,       ///< a point's neighbours do not span the basis
   max_iterations,  ///< the minimiser stopped before it converged
+  not_converged,   ///< the minimiser gave up before it converged
+  turn_lost,       ///< the shape fell back from a turn on the handles' way
   not_finite,      ///< a number became NaN or infinite
   thin,            ///< a part is thinner than the particles can follow
 };

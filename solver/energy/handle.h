@@ -17,7 +17,6 @@ class SUPPLE_API HandleEnergy final : public Energy {
   double stiffness() const override { return 2; }
   void evaluate(const LocalField& at, LocalResidual& out) const override;
 
-  const Points& targets() const { return targets_; }
   void set_targets(const Points& targets) { targets_ = targets; }
 
  private:

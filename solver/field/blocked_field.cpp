@@ -1,7 +1,6 @@
 #include "solver/field/blocked_field.h"
 
 #include <algorithm>
-#include <array>
 
 #include "solver/core/check.h"
 #include "solver/core/parallel.h"
@@ -114,6 +113,16 @@ void BlockedField::for_each_point(Index block, const Body& body) const {
   }
 }
 
+void BlockedField::store_gradients(Index block, const RigidMotion& rigid,
+                                   const std::array<Lanes, 9>& sum, std::vector<Mat3>& out) const {
+  for_each_point(block, [&](int lane, int point, const Vec3&) {
+    Mat3 F = rigid.R;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) F(a, b) += sum[static_cast<std::size_t>(3 * a + b)][lane];
+    out[static_cast<std::size_t>(point)] = F;
+  });
+}
+
 void BlockedField::displace(const RigidMotion& rigid, const ParticleValues<3>& d,
                             Points& out) const {
   out.resize(size_, 3);
@@ -173,12 +182,7 @@ void BlockedField::displace_gradients(const RigidMotion& rigid, const ParticleVa
         for (std::size_t a = 0; a < 3; ++a) sum[3 * a + b] += slope * value[a];
       }
     }
-    for_each_point(block, [&](int lane, int point, const Vec3&) {
-      Mat3 F = rigid.R;
-      for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b) F(a, b) += sum[static_cast<std::size_t>(3 * a + b)][lane];
-      out[static_cast<std::size_t>(point)] = F;
-    });
+    store_gradients(block, rigid, sum, out);
   });
 }
 
@@ -194,12 +198,7 @@ void BlockedField::blend_gradients(const RigidMotion& rigid, const ParticleValue
       const float* value = maps.data() + 12 * particles_[static_cast<std::size_t>(entry)] + 3;
       for (std::size_t c = 0; c < 9; ++c) sum[c] += w * value[c];
     }
-    for_each_point(block, [&](int lane, int point, const Vec3&) {
-      Mat3 F = rigid.R;
-      for (int a = 0; a < 3; ++a)
-        for (int b = 0; b < 3; ++b) F(a, b) += sum[static_cast<std::size_t>(3 * a + b)][lane];
-      out[static_cast<std::size_t>(point)] = F;
-    });
+    store_gradients(block, rigid, sum, out);
   });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "solver/core/export.h"
@@ -62,6 +63,8 @@ class SUPPLE_API BlockedField {
   void for_each_block(const Body& body) const;
   template <class Body>
   void for_each_point(Index block, const Body& body) const;
+  void store_gradients(Index block, const RigidMotion& rigid, const std::array<Lanes, 9>& sum,
+                       std::vector<Mat3>& out) const;
   const float* entry_weights(int entry) const { return &weights_[std::size_t(entry) * lanes]; }
 
   Index size_ = 0, entries_ = 0;

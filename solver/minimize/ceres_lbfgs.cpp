@@ -73,8 +73,8 @@ Report minimize_lbfgs(const EnergySum& energy, const Preconditioner& preconditio
   if (summary.termination_type == ceres::NO_CONVERGENCE)
     report.degrade({ReasonCode::max_iterations, 1, static_cast<double>(report.iterations),
                     fmt::format("stopped after {} iterations", report.iterations)});
-  if (summary.termination_type == ceres::FAILURE && !(summary.final_cost <= summary.initial_cost))
-    report.fail({ReasonCode::not_finite, 1, 0, summary.message});
+  if (summary.termination_type == ceres::FAILURE)
+    report.degrade({ReasonCode::not_converged, 1, summary.final_cost, summary.message});
   return report;
 }
 

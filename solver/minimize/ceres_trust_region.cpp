@@ -104,7 +104,8 @@ Report minimize_trust_region(const EnergySum& energy, const MinimizeOptions& opt
   if (summary.termination_type == ceres::NO_CONVERGENCE)
     report.degrade({ReasonCode::max_iterations, 1, static_cast<double>(report.iterations),
                     fmt::format("stopped after {} iterations", report.iterations)});
-  if (!summary.IsSolutionUsable()) report.fail({ReasonCode::not_finite, 1, 0, summary.message});
+  if (!summary.IsSolutionUsable())
+    report.fail({ReasonCode::not_converged, 1, summary.final_cost, summary.message});
   return report;
 }
 

@@ -1,5 +1,6 @@
 #include "solver/minimize/minimize.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/core/check.h"
@@ -7,11 +8,27 @@
 namespace supple {
 namespace {
 
+bool gave_up(const Report& report) {
+  return std::any_of(report.reasons.begin(), report.reasons.end(),
+                     [](const Reason& reason) { return reason.code == ReasonCode::not_converged; });
+}
+
+/// L-BFGS; where its line search gives up, the trust region goes on from there, and says so.
+Report run_lbfgs(const EnergySum& energy, const Preconditioner& preconditioner,
+                 const MinimizeOptions& options, Points& u) {
+  const Report lbfgs = minimize_lbfgs(energy, preconditioner, options, u);
+  if (!gave_up(lbfgs) || !u.allFinite()) return lbfgs;
+  Report report = minimize_trust_region(energy, options, u);
+  report.iterations += lbfgs.iterations;
+  report.notes.push_back("the line search gave up; the trust region finished the solve");
+  return report;
+}
+
 Report run(const EnergySum& energy, const Preconditioner& preconditioner,
            const MinimizeOptions& options, Points& u) {
   switch (options.kind) {
     case MinimizerKind::lbfgs:
-      return minimize_lbfgs(energy, preconditioner, options, u);
+      return run_lbfgs(energy, preconditioner, options, u);
     case MinimizerKind::trust_region:
       return minimize_trust_region(energy, options, u);
     case MinimizerKind::nlopt:

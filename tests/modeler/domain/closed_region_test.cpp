@@ -152,7 +152,8 @@ TEST(ClosedRegion, OpenSurfaceIsRefusedWithWords) {
   bar.face_vertices.resize(bar.face_vertices.size() - 3);
   bar.face_starts.pop_back();
   const std::string words = refusal(bar);
-  EXPECT_NE(words.find("open: 3 boundary edges, for example at ("), std::string::npos) << words;
+  EXPECT_NE(words.find("open: 3 boundary edges, for example at vertex "), std::string::npos)
+      << words;
   EXPECT_NE(words.find("fill the holes"), std::string::npos) << words;
 }
 

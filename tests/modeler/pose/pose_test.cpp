@@ -1,5 +1,6 @@
 #include "modeler/pose/pose.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -120,6 +121,65 @@ TEST(Pose, WeightsScalesAndTurnsBeyondHalfATurn) {
     const double angle = std::atan2(y[1] - 0.125, y[0] - 0.125) - before;
     EXPECT_NEAR(std::cos(angle - 135 * EIGEN_PI / 180), 1, 0.05);
   }
+}
+
+TEST(Pose, HoldsATwistOfTwoTurnsOrSaysThatItIsLost) {
+  const Mesh bar = make_quad_bar({1, 8, 1}, {4, 32, 4});
+  const PoseResult result =
+      pose(bar, scene_with("  handles:\n    - fix: y<5%\n"
+                           "    - {move: y>95%, turn: {axis: [0, 1, 0], degrees: 720}}\n"));
+  double rigidity = 0;
+  for (const auto& [name, value] : result.report.energies)
+    if (name == "rigidity") rigidity = value;
+  const bool said_so =
+      std::any_of(result.report.reasons.begin(), result.report.reasons.end(),
+                  [](const Reason& reason) { return reason.code == ReasonCode::turn_lost; });
+  // The straight bar has no energy, and one turn less 0.19.
+  EXPECT_TRUE(said_so || rigidity > 0.3) << rigidity;
+}
+
+/// Two bars side by side, `gap` apart, in one mesh.
+Mesh two_bars(double gap) {
+  Mesh two = make_quad_bar({0.25, 0.25, 1}, {4, 4, 16});
+  const Mesh one = two;
+  const Index count = one.positions.rows();
+  two.positions.conservativeResize(2 * count, 3);
+  two.positions.bottomRows(count) = one.positions.rowwise() + Eigen::RowVector3d(gap, 0, 0);
+  for (const int vertex : one.face_vertices)
+    two.face_vertices.push_back(vertex + static_cast<int>(count));
+  const int corners = one.face_starts.back();
+  for (int face = 0; face < one.face_count(); ++face)
+    two.face_starts.push_back(corners + one.face_starts[std::size_t(face) + 1]);
+  return two;
+}
+
+TEST(Pose, APieceWithoutHandlesStaysAndIsNamed) {
+  const Mesh two = two_bars(3);
+  const PoseResult result = pose(two, scene_with("  handles:\n    - fix: z<5% and x<1\n"
+                                                 "    - {move: z>95% and x<1, by: [0.1, 0, 0]}\n"));
+  const Index count = two.positions.rows() / 2;
+  EXPECT_LT((result.mesh.positions - two.positions).bottomRows(count).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_GT((result.mesh.positions - two.positions).topRows(count).cwiseAbs().maxCoeff(), 0.09);
+  EXPECT_TRUE(std::any_of(result.report.notes.begin(), result.report.notes.end(),
+                          [](const std::string& note) {
+                            return note.find("pieces without handles") != std::string::npos;
+                          }));
+}
+
+TEST(Pose, AVertexThatNoFaceUsesChangesNothing) {
+  const std::string handles =
+      "  handles:\n    - fix: z<10%\n    - {move: z>90%, by: [20%, 10%, 0]}\n";
+  const Mesh bar = make_quad_bar({0.25, 0.25, 1}, {4, 4, 16});
+  Mesh stray = bar;
+  stray.positions.conservativeResize(bar.positions.rows() + 1, 3);
+  stray.positions.bottomRows(1) << 1000, 1000, 1000;
+  const PoseResult clean = pose(bar, scene_with(handles)), with = pose(stray, scene_with(handles));
+  EXPECT_LT((clean.mesh.positions - with.mesh.positions.topRows(bar.positions.rows()))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-9);
+  EXPECT_EQ(with.report.status, Status::ok);
+  EXPECT_TRUE(with.mesh.positions.allFinite());
 }
 
 TEST(Pose, BothSurfaceAlternativesGiveNearlyTheSamePose) {
