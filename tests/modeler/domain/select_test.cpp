@@ -134,7 +134,7 @@ TEST_F(Select, WrongVertexFilesAreRefusedWithTheirLine) {
   folder_.put("huge.txt", "99999999999999999999999");
   EXPECT_NE(refusal("vertices(huge.txt)").find("huge.txt:1:1: there is no vertex 9999"),
             std::string::npos);
-  const std::string missing = refusal("vertices(none.txt)");
+  const std::string missing = message_of<InputError>([&] { chosen("vertices(none.txt)"); });
   EXPECT_EQ(missing.rfind("scene.yaml:3:7", 0), 0u) << missing;
   EXPECT_NE(missing.find("none.txt"), std::string::npos);
 }
