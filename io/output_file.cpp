@@ -17,8 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBufferSize = 1 << 18;
-constexpr mode_t kNewFileMode = 0666;
+constexpr std::size_t buffer_size = 1 << 18;
+constexpr mode_t new_file_mode = 0666;
 
 [[noreturn]] void fail_output(const fs::path& path, std::string_view why) {
   throw OutputError(fmt::format("{}: cannot write: {}", path.string(), why));
@@ -58,7 +58,8 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
   path_ = follow_link(path_);
   for (int attempt = 0; descriptor_ < 0; ++attempt) {
     temporary_ = path_.parent_path() / fmt::format(".supple-{}-{}.tmp", ::getpid(), attempt);
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+    descriptor_ =
+        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, new_file_mode);
     if (descriptor_ < 0 && errno != EEXIST) {
       temporary_.clear();
       fail("make a file in its folder");
@@ -74,7 +75,7 @@ OutputFile::~OutputFile() {
 void OutputFile::write(std::string_view bytes) {
   SUPPLE_CHECK(descriptor_ >= 0, "write after commit");
   buffer_.append(bytes);
-  if (buffer_.size() >= kBufferSize) flush();
+  if (buffer_.size() >= buffer_size) flush();
 }
 
 void OutputFile::commit() {

@@ -13,7 +13,7 @@
 namespace supple {
 namespace {
 
-constexpr off_t kLargestFile = off_t{1} << 32;
+constexpr off_t largest_file = off_t{1} << 32;
 
 /// An open file for reading that closes itself.
 class InputDescriptor {
@@ -35,8 +35,8 @@ class InputDescriptor {
     if (S_ISDIR(status.st_mode)) fail("it is a folder");
     if (!S_ISREG(status.st_mode)) fail("it is not a regular file");
     if (status.st_size == 0) fail("the file is empty");
-    if (status.st_size > kLargestFile)
-      fail(fmt::format("it has {} bytes, more than {}", status.st_size, kLargestFile));
+    if (status.st_size > largest_file)
+      fail(fmt::format("it has {} bytes, more than {}", status.st_size, largest_file));
     return static_cast<std::size_t>(status.st_size);
   }
 

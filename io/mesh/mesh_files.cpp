@@ -12,12 +12,12 @@ namespace supple {
 namespace {
 
 enum Holds : unsigned {
-  kPolygons = 1,
-  kTags = 2,
-  kCornerNormals = 4,
-  kCornerTexcoords = 8,
-  kAttributes = 16,  // per vertex
-  kAlpha = 32,
+  holds_polygons = 1,
+  holds_tags = 2,
+  holds_corner_normals = 4,
+  holds_corner_texcoords = 8,
+  holds_attributes = 16,  // per vertex
+  holds_alpha = 32,
 };
 
 struct MeshFormat {
@@ -27,17 +27,19 @@ struct MeshFormat {
   unsigned holds;
 };
 
-constexpr std::array<MeshFormat, 4> kFormats = {{
+constexpr std::array<MeshFormat, 4> known_formats = {{
     {"obj", read_obj, write_obj,
-     kPolygons | kTags | kCornerNormals | kCornerTexcoords | kAttributes},
-    {"off", read_off, write_off, kPolygons | kAttributes | kAlpha},
-    {"ply", read_ply, write_ply, kPolygons | kCornerTexcoords | kAttributes | kAlpha},
+     holds_polygons | holds_tags | holds_corner_normals | holds_corner_texcoords |
+         holds_attributes},
+    {"off", read_off, write_off, holds_polygons | holds_attributes | holds_alpha},
+    {"ply", read_ply, write_ply,
+     holds_polygons | holds_corner_texcoords | holds_attributes | holds_alpha},
     {"stl", read_stl, write_stl, 0},
 }};
 
 const MeshFormat* format_of(const std::filesystem::path& path) {
   const std::string extension = lower_case(path.extension().string());
-  for (const MeshFormat& format : kFormats)
+  for (const MeshFormat& format : known_formats)
     if (extension == fmt::format(".{}", format.name)) return &format;
   return nullptr;
 }
@@ -78,7 +80,7 @@ Mesh read_mesh(const std::filesystem::path& path) {
 
 std::string mesh_formats() {
   std::string names;
-  for (const MeshFormat& format : kFormats)
+  for (const MeshFormat& format : known_formats)
     names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
   return names;
 }
@@ -96,15 +98,16 @@ std::vector<std::string> left_out_by(const std::filesystem::path& path, const Me
   };
   const bool polygons =
       mesh.face_vertices.size() != 3 * static_cast<std::size_t>(mesh.face_count());
-  add(kPolygons, polygons, "polygons: written in triangles");
-  add(kPolygons, true, "shared vertices: written thrice for every triangle");
-  add(kTags, !mesh.tags.empty() || !mesh.material_libraries.empty(), "groups and materials");
-  add(mesh.normals.per_corner() ? kCornerNormals : kAttributes, !mesh.normals.empty(),
+  add(holds_polygons, polygons, "polygons: written in triangles");
+  add(holds_polygons, true, "shared vertices: written thrice for every triangle");
+  add(holds_tags, !mesh.tags.empty() || !mesh.material_libraries.empty(), "groups and materials");
+  add(mesh.normals.per_corner() ? holds_corner_normals : holds_attributes, !mesh.normals.empty(),
       mesh.normals.per_corner() ? "normals per corner" : "normals");
-  add(mesh.texcoords.per_corner() ? kCornerTexcoords : kAttributes, !mesh.texcoords.empty(),
+  add(mesh.texcoords.per_corner() ? holds_corner_texcoords : holds_attributes,
+      !mesh.texcoords.empty(),
       mesh.texcoords.per_corner() ? "texture coordinates per corner" : "texture coordinates");
-  add(kAttributes, !mesh.colors.empty(), "colors");
-  add(kAlpha, !mesh.colors.empty() && mesh.colors.values.col(3).minCoeff() < 1, "alpha");
+  add(holds_attributes, !mesh.colors.empty(), "colors");
+  add(holds_alpha, !mesh.colors.empty() && mesh.colors.values.col(3).minCoeff() < 1, "alpha");
   return sentences;
 }
 

@@ -10,7 +10,7 @@ namespace supple {
 namespace {
 
 // The shortest lines there can be: "0 0 0\n" and "1 0\n".
-constexpr std::size_t kVertexBytes = 6, kFaceBytes = 4;
+constexpr std::size_t vertex_bytes = 6, face_bytes = 4;
 
 class OffReader {
  public:
@@ -41,8 +41,8 @@ class OffReader {
     if (letters != "OFF")
       scanner_.fail("the first word is not OFF, COFF, NOFF, CNOFF or one of these after ST");
     if (scanner_.at_line_end()) scanner_.require_line();
-    vertices_ = read_count("vertices", kVertexBytes);
-    faces_ = read_count("faces", kFaceBytes);
+    vertices_ = read_count("vertices", vertex_bytes);
+    faces_ = read_count("faces", face_bytes);
     if (!scanner_.at_line_end()) scanner_.integer();  // edges: of no use
     scanner_.expect_line_end();
   }

@@ -16,7 +16,7 @@ struct NamedType {
   std::size_t bytes;
 };
 
-constexpr std::array<NamedType, 8> kTypes = {{
+constexpr std::array<NamedType, 8> known_types = {{
     {"char", "int8", PlyType::int8, 1},
     {"uchar", "uint8", PlyType::uint8, 1},
     {"short", "int16", PlyType::int16, 2},
@@ -28,7 +28,7 @@ constexpr std::array<NamedType, 8> kTypes = {{
 }};
 
 PlyType type_named(std::string_view name, const TextScanner& scanner) {
-  for (const NamedType& known : kTypes)
+  for (const NamedType& known : known_types)
     if (name == known.name || name == known.other_name) return known.type;
   scanner.fail(
       fmt::format("\"{}\" is no type of PLY: char uchar short ushort int uint float double",
@@ -36,13 +36,13 @@ PlyType type_named(std::string_view name, const TextScanner& scanner) {
 }
 
 PlyFormat read_format(TextScanner& scanner) {
-  constexpr std::pair<std::string_view, PlyFormat> kFormats[] = {
+  constexpr std::pair<std::string_view, PlyFormat> known_formats[] = {
       {"ascii", PlyFormat::ascii},
       {"binary_little_endian", PlyFormat::little_endian},
       {"binary_big_endian", PlyFormat::big_endian}};
   const std::string_view name = scanner.word();
   scanner.expect("1.0");
-  for (const auto& [known, format] : kFormats)
+  for (const auto& [known, format] : known_formats)
     if (name == known) return format;
   scanner.fail("the format is not ascii, binary_little_endian or binary_big_endian");
 }
@@ -105,7 +105,7 @@ void check_counts(const PlyHeader& header, const TextScanner& scanner) {
 }  // namespace
 
 std::size_t byte_size(PlyType type) {
-  return kTypes[static_cast<std::size_t>(type)].bytes;
+  return known_types[static_cast<std::size_t>(type)].bytes;
 }
 
 bool is_integer(PlyType type) {

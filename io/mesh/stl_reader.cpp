@@ -12,7 +12,7 @@
 namespace supple {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 84, kTriangleBytes = 50, kNormalBytes = 12;
+constexpr std::size_t header_bytes = 84, triangle_bytes = 50, normal_bytes = 12;
 
 /// Makes mesh.positions of `coordinates`, and a triangle of every three vertices.
 void take_triangles(Mesh& mesh, const std::vector<double>& coordinates) {
@@ -74,13 +74,13 @@ class StlTextReader {
 
 std::uint32_t triangle_count(const FileBytes& file) {
   std::uint32_t count = 0;
-  std::memcpy(&count, file.bytes.data() + kHeaderBytes - sizeof(count), sizeof(count));
+  std::memcpy(&count, file.bytes.data() + header_bytes - sizeof(count), sizeof(count));
   return count;
 }
 
 bool is_text(const FileBytes& file) {
-  if (file.bytes.size() >= kHeaderBytes &&
-      file.bytes.size() == kHeaderBytes + kTriangleBytes * triangle_count(file))
+  if (file.bytes.size() >= header_bytes &&
+      file.bytes.size() == header_bytes + triangle_bytes * triangle_count(file))
     return false;
   const std::size_t begin = file.bytes.find_first_not_of(" \t\r\n");
   return begin != std::string::npos && lower_case(file.bytes.substr(begin, 5)) == "solid" &&
@@ -100,12 +100,12 @@ void read_binary_vertex(const FileBytes& file, std::size_t at, std::vector<doubl
 
 Mesh read_binary(const FileBytes& file) {
   const std::size_t size = file.bytes.size();
-  if (size < kHeaderBytes)
+  if (size < header_bytes)
     throw InputError(
         fmt::format("{}: {} bytes are no STL file: text begins with \"solid\", binary "
                     "has at least {} bytes",
-                    file.name, size, kHeaderBytes));
-  const std::size_t count = triangle_count(file), needed = kHeaderBytes + kTriangleBytes * count;
+                    file.name, size, header_bytes));
+  const std::size_t count = triangle_count(file), needed = header_bytes + triangle_bytes * count;
   if (size < needed)
     throw InputError(fmt::format("{}: the file is cut short: {} triangles need {} bytes, it has {}",
                                  file.name, count, needed, size));
@@ -114,7 +114,7 @@ Mesh read_binary(const FileBytes& file) {
   for (std::size_t triangle = 0; triangle < count; ++triangle)
     for (std::size_t corner = 0; corner < 3; ++corner)
       read_binary_vertex(file,
-                         kHeaderBytes + kTriangleBytes * triangle + kNormalBytes * (corner + 1),
+                         header_bytes + triangle_bytes * triangle + normal_bytes * (corner + 1),
                          coordinates);
   Mesh mesh;
   take_triangles(mesh, coordinates);

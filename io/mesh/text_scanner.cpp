@@ -12,17 +12,17 @@
 namespace supple {
 namespace {
 
-constexpr std::size_t kLongestQuote = 40;
+constexpr std::size_t longest_quote = 40;
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
 std::string quoted(std::string_view word) {
-  std::string text(word.substr(0, kLongestQuote));
+  std::string text(word.substr(0, longest_quote));
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20) c = '?';
-  return fmt::format("\"{}{}\"", text, word.size() > kLongestQuote ? "..." : "");
+  return fmt::format("\"{}{}\"", text, word.size() > longest_quote ? "..." : "");
 }
 
 /// from_chars, which knows no plus sign.

@@ -45,13 +45,13 @@ class FileSizeLimit {
 class PlainUser {
  public:
   PlainUser() {
-    const uid_t plain = user_ == 0 ? kNobody : user_;
+    const uid_t plain = user_ == 0 ? nobody : user_;
     EXPECT_EQ(::seteuid(plain), 0);
   }
   ~PlainUser() { EXPECT_EQ(::seteuid(user_), 0); }
 
  private:
-  static constexpr uid_t kNobody = 65534;
+  static constexpr uid_t nobody = 65534;
   uid_t user_ = ::geteuid();
 };
 

@@ -16,7 +16,7 @@ struct Malformed {
   std::string words;  ///< what the message must say after the file's name
 };
 
-const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const std::string one_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 std::string ply(const std::string& format, const std::string& rest) {
   return "ply\nformat " + format + " 1.0\n" + rest;
@@ -49,16 +49,16 @@ std::vector<Malformed> obj_cases() {
       {"a.obj", "v 0 0 --1\n", "\"--1\" is not a number"},
       {"a.obj", "v 0 0 +-1\n", "\"+-1\" is not a number"},
       {"a.obj", "v 1 2 3 4 5\n", "\"4\" is more than belongs on this line"},
-      {"a.obj", kTriangle + "f 1 2\n", ":4: face 1: it has 2 vertices, fewer than 3"},
-      {"a.obj", kTriangle + "f 1 2 4\n", ":4: vertex 4 does not exist, the file has 3"},
-      {"a.obj", kTriangle + "f 1 2 3\nf 1 2 -4\n", ":5: face 2: vertex -4 does not exist"},
-      {"a.obj", kTriangle + "f 0 1 2\n", ":4: face 1: \"0\" is no corner"},
-      {"a.obj", kTriangle + "f 1/1 2 3\n", ":4: vt 1 does not exist, the file has 0"},
-      {"a.obj", kTriangle + "f 1//2 2 3\n", ":4: vn 2 does not exist, the file has 0"},
-      {"a.obj", kTriangle + "f 1 2 3x\n", "\"3x\" is no corner"},
-      {"a.obj", kTriangle + "f 1 2 3/1/1/1\n", "\"3/1/1/1\" is no corner"},
-      {"a.obj", kTriangle + "f 1 2 99999999999999999999\n", "is no corner"},
-      {"a.obj", kTriangle + "f 1 2 9999999999\n", "vertex 9999999999 does not exist"},
+      {"a.obj", one_triangle + "f 1 2\n", ":4: face 1: it has 2 vertices, fewer than 3"},
+      {"a.obj", one_triangle + "f 1 2 4\n", ":4: vertex 4 does not exist, the file has 3"},
+      {"a.obj", one_triangle + "f 1 2 3\nf 1 2 -4\n", ":5: face 2: vertex -4 does not exist"},
+      {"a.obj", one_triangle + "f 0 1 2\n", ":4: face 1: \"0\" is no corner"},
+      {"a.obj", one_triangle + "f 1/1 2 3\n", ":4: vt 1 does not exist, the file has 0"},
+      {"a.obj", one_triangle + "f 1//2 2 3\n", ":4: vn 2 does not exist, the file has 0"},
+      {"a.obj", one_triangle + "f 1 2 3x\n", "\"3x\" is no corner"},
+      {"a.obj", one_triangle + "f 1 2 3/1/1/1\n", "\"3/1/1/1\" is no corner"},
+      {"a.obj", one_triangle + "f 1 2 99999999999999999999\n", "is no corner"},
+      {"a.obj", one_triangle + "f 1 2 9999999999\n", "vertex 9999999999 does not exist"},
       {"a.obj", std::string("v 0 0 0\n\0", 9), ": byte 8 is zero: this is not a text file"},
       {"a.obj", "\x89PNG\r\n", ":1: this is not an OBJ file"},
       {"a.obj", "v 0 0 0 -1 0 0\n", "is outside [0, 1] and [0, 255]"},

@@ -10,7 +10,7 @@
 namespace supple {
 namespace {
 
-constexpr double kFloat = 1e-7;
+constexpr double float_rounding = 1e-7;
 
 /// Values that no short decimal holds.
 template <int Columns>
@@ -77,7 +77,7 @@ TEST(RoundTrip, ShapesInEveryFormat) {
                            make_icosphere(0.7, 2), make_torus(2, 0.5, 12, 7)})
     for (const char* name : {"a.obj", "a.off", "a.ply", "a.PLY"}) {
       const Mesh back = through(mesh, name);
-      expect_same_mesh(mesh, back, kFloat);
+      expect_same_mesh(mesh, back, float_rounding);
       EXPECT_TRUE(back.notes.empty()) << name;
       expect_stable_bytes(mesh, name);
     }
@@ -94,7 +94,7 @@ TEST(RoundTrip, TextFormatsKeepDoubles) {
 TEST(RoundTrip, VertexValues) {
   const Mesh mesh = bar_with_values();
   for (const char* name : {"a.ply", "a.off"}) {
-    expect_same_mesh(mesh, through(mesh, name), kFloat);
+    expect_same_mesh(mesh, through(mesh, name), float_rounding);
     expect_stable_bytes(mesh, name);
   }
   Mesh opaque = mesh;
@@ -127,10 +127,10 @@ TEST(RoundTrip, CornerValuesGroupsAndMaterialsInObj) {
 TEST(RoundTrip, CornerTextureInPly) {
   Mesh mesh = box_with_corner_values();
   const Mesh back = through(mesh, "a.ply");
-  expect_same_shape(mesh, back, kFloat);
+  expect_same_shape(mesh, back, float_rounding);
   EXPECT_LE(
       relative_difference(corner_values(mesh, mesh.texcoords), corner_values(back, back.texcoords)),
-      kFloat);
+      float_rounding);
   expect_stable_bytes(mesh, "a.ply");
   EXPECT_EQ(left_out_by("a.ply", mesh),
             (std::vector<std::string>{"ply cannot hold groups and materials",
@@ -139,7 +139,8 @@ TEST(RoundTrip, CornerTextureInPly) {
 
 TEST(RoundTrip, PointClouds) {
   Mesh cloud = without_faces(bar_with_values());
-  for (const char* name : {"a.ply", "a.off"}) expect_same_mesh(cloud, through(cloud, name), kFloat);
+  for (const char* name : {"a.ply", "a.off"})
+    expect_same_mesh(cloud, through(cloud, name), float_rounding);
   cloud.colors.values.col(3).setOnes();
   expect_same_mesh(cloud, through(cloud, "a.obj"), 0);
   const TemporaryFolder folder;
@@ -191,7 +192,7 @@ TEST(RoundTrip, PlyHoldsLargePolygons) {
   }
   const Mesh mesh = make_mesh(points, {polygon});
   for (const char* name : {"a.ply", "a.obj", "a.off"})
-    expect_same_mesh(mesh, through(mesh, name), kFloat);
+    expect_same_mesh(mesh, through(mesh, name), float_rounding);
 }
 
 TEST(WriteMesh, RefusesWhatItCannotWrite) {

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kData = fs::path(SUPPLE_SHARED_DATA) / "data";
+const fs::path shared_data = fs::path(SUPPLE_SHARED_DATA) / "data";
 
 struct Counts {
   long vertices = 0, faces = 0;
@@ -24,7 +24,7 @@ struct Counts {
 /// The columns `file`, `vertices` and `faces` of the table in data/README.md.
 std::map<std::string, Counts> listed_counts() {
   std::map<std::string, Counts> counts;
-  std::ifstream readme(kData / "README.md");
+  std::ifstream readme(shared_data / "README.md");
   for (std::string line; std::getline(readme, line);) {
     std::vector<std::string> cells;
     std::istringstream row(line);
@@ -39,13 +39,13 @@ std::map<std::string, Counts> listed_counts() {
 }
 
 TEST(SharedMeshes, HaveTheListedCountsAndComeBack) {
-  if (!fs::exists(kData)) GTEST_SKIP() << "skipped: no shared data";
+  if (!fs::exists(shared_data)) GTEST_SKIP() << "skipped: no shared data";
   const std::map<std::string, Counts> listed = listed_counts();
   ASSERT_GT(listed.size(), 50u);
   const TemporaryFolder folder;
   for (const auto& [name, counts] : listed) {
     SCOPED_TRACE(name);
-    const Mesh mesh = read_mesh(kData / name);
+    const Mesh mesh = read_mesh(shared_data / name);
     EXPECT_EQ(mesh.face_count(), counts.faces);
     // The list counts the corners of STL welded.
     const bool soup = fs::path(name).extension() == ".stl";
@@ -59,15 +59,15 @@ TEST(SharedMeshes, HaveTheListedCountsAndComeBack) {
 }
 
 TEST(SharedMeshes, StripsAreAClosedSurface) {
-  if (!fs::exists(kData)) GTEST_SKIP() << "skipped: no shared data";
-  const Mesh igea = read_mesh(kData / "igea_134k.ply");
+  if (!fs::exists(shared_data)) GTEST_SKIP() << "skipped: no shared data";
+  const Mesh igea = read_mesh(shared_data / "igea_134k.ply");
   EXPECT_TRUE(is_closed(triangles_of(igea)));
   EXPECT_GT(enclosed_volume(igea.positions, triangles_of(igea)), 0);
 }
 
 TEST(SharedMeshes, QuadsGiveAClosedTriangleMesh) {
-  if (!fs::exists(kData)) GTEST_SKIP() << "skipped: no shared data";
-  const Mesh spot = read_mesh(kData / "spot_quads.obj");
+  if (!fs::exists(shared_data)) GTEST_SKIP() << "skipped: no shared data";
+  const Mesh spot = read_mesh(shared_data / "spot_quads.obj");
   EXPECT_EQ(spot.texcoords.values.rows(), 267);
   EXPECT_EQ(spot.texcoords.corners.size(), spot.face_vertices.size());
   const Triangulation cut = triangulate(spot);
@@ -76,8 +76,8 @@ TEST(SharedMeshes, QuadsGiveAClosedTriangleMesh) {
 }
 
 TEST(SharedMeshes, PolygonsWithGroupsAndMaterials) {
-  if (!fs::exists(kData)) GTEST_SKIP() << "skipped: no shared data";
-  const Mesh chair = read_mesh(kData / "office_chair_ngons.obj");
+  if (!fs::exists(shared_data)) GTEST_SKIP() << "skipped: no shared data";
+  const Mesh chair = read_mesh(shared_data / "office_chair_ngons.obj");
   const auto count = [&](FaceTag::Kind kind) {
     return std::count_if(chair.tags.begin(), chair.tags.end(),
                          [&](const FaceTag& tag) { return tag.kind == kind; });
@@ -91,11 +91,11 @@ TEST(SharedMeshes, PolygonsWithGroupsAndMaterials) {
 }
 
 TEST(SharedMeshes, PointCloudsKeepNormalsAndColors) {
-  if (!fs::exists(kData)) GTEST_SKIP() << "skipped: no shared data";
-  const Mesh hippo = read_mesh(kData / "scan_hippo_6k.ply");
+  if (!fs::exists(shared_data)) GTEST_SKIP() << "skipped: no shared data";
+  const Mesh hippo = read_mesh(shared_data / "scan_hippo_6k.ply");
   EXPECT_EQ(hippo.normals.values.rows(), 6104);
   EXPECT_NEAR(hippo.normals.values.rowwise().norm().maxCoeff(), 1, 1e-6);
-  const Mesh lidar = read_mesh(kData / "scan_b9_utm_22k.ply");
+  const Mesh lidar = read_mesh(shared_data / "scan_b9_utm_22k.ply");
   EXPECT_EQ(lidar.colors.values.rows(), 22300);
   EXPECT_EQ(lidar.notes,
             (std::vector<std::string>{"left out: property \"label\" of element \"vertex\""}));
