@@ -38,6 +38,7 @@ struct Mesh {
   Attribute<3> normals;  ///< unit length where the file's are
   Attribute<2> texcoords;
   Attribute<4> colors;        ///< red, green, blue, alpha in [0, 1]; always per vertex
+  Eigen::VectorXd radii;      ///< of a point cloud's points [file units]; n, or empty
   std::vector<FaceTag> tags;  ///< ordered by first_face
   std::vector<std::string> material_libraries;
   std::vector<std::string> notes;  ///< what the reader left out or mended, a sentence each

@@ -176,6 +176,12 @@ Vec3 ClosedRegion::closest_boundary_point(const Vec3& x) const {
   return parts_->tree.closest(x - parts_->center).point + parts_->center;
 }
 
+bool ClosedRegion::connects(const Vec3& a, const Vec3& b) const {
+  std::vector<Crossing> crossings;
+  parts_->tree.crossings(a - parts_->center, b - parts_->center, crossings);
+  return crossings.empty();
+}
+
 double ClosedRegion::volume() const {
   return parts_->volume;
 }

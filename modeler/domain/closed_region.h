@@ -28,6 +28,7 @@ class ClosedRegion final : public Region {
   double signed_distance(const Vec3& x) const override;
   bool contains(const Vec3& x) const override;
   Vec3 closest_boundary_point(const Vec3& x) const override;
+  bool connects(const Vec3& a, const Vec3& b) const override;
   double volume() const override;
   Box bounds() const override;
 

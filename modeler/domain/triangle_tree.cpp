@@ -47,6 +47,33 @@ void improve(const std::array<Vec3, 3>& corners, int triangle, const Vec3& x, Cl
   if (inside) best = {x - height / area2 * normal, height * height / area2, triangle};
 }
 
+/// True where the segment from a with inverse direction may touch the box.
+bool touches(const Box& box, const Vec3& a, const Vec3& inverse) {
+  double enter = 0, leave = 1;
+  for (int k = 0; k < 3; ++k) {
+    double near = (box.lower[k] - a[k]) * inverse[k], far = (box.upper[k] - a[k]) * inverse[k];
+    if (near > far) std::swap(near, far);
+    // A segment within a face's plane gives 0·∞: it may touch.
+    if (near > enter) enter = near;
+    if (far < leave) leave = far;
+  }
+  return enter <= leave;
+}
+
+/// By the volumes of the tetrahedra that the segment spans with the triangle's edges.
+bool passes(const std::array<Vec3, 3>& corners, const Vec3& a, const Vec3& b, Crossing& crossing) {
+  const auto& [p, q, r] = corners;
+  const Vec3 normal = (q - p).cross(r - p);
+  const double from = normal.dot(a - p), to = normal.dot(b - p);
+  if (from == to || (from > 0) == (to > 0)) return false;
+  const Vec3 way = b - a, pa = p - a, qa = q - a, ra = r - a;
+  const double u = way.dot(pa.cross(qa)), v = way.dot(qa.cross(ra)), w = way.dot(ra.cross(pa));
+  if (std::min({u, v, w}) < 0 && std::max({u, v, w}) > 0) return false;
+  crossing.share = std::clamp(from / (from - to), 0.0, 1.0);
+  crossing.outward = from < to;
+  return true;
+}
+
 /// van Oosterom & Strackee 1983, Eq. 8.
 double solid_angle(const std::array<Vec3, 3>& corners, const Vec3& x) {
   const Vec3 a = corners[0] - x, b = corners[1] - x, c = corners[2] - x;
@@ -173,6 +200,29 @@ ClosestPoint TriangleTree::closest(const Vec3& x) const {
     stack[size++] = near;
   }
   return best;
+}
+
+void TriangleTree::crossings(const Vec3& a, const Vec3& b, std::vector<Crossing>& found) const {
+  found.clear();
+  if (nodes_.empty()) return;
+  const Vec3 inverse = (b - a).cwiseInverse();
+  std::array<int, stack_size> stack;
+  int size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const int at = stack[--size];
+    const Node& node = nodes_[at];
+    if (!touches(node.box, a, inverse)) continue;
+    if (!node.leaf()) {
+      stack[size++] = node.second;
+      stack[size++] = at + 1;
+      continue;
+    }
+    for (int t = node.first; t < node.first + node.count; ++t) {
+      Crossing crossing{0, triangles_[t], false};
+      if (passes(corners_[t], a, b, crossing)) found.push_back(crossing);
+    }
+  }
 }
 
 double TriangleTree::winding_number(const Vec3& x) const {

@@ -15,6 +15,13 @@ struct ClosestPoint {
   int triangle = -1;
 };
 
+/// Where a segment passes through a triangle.
+struct Crossing {
+  double share;  ///< of the segment, in [0, 1]
+  int triangle;
+  bool outward;  ///< from the triangle's back to its front
+};
+
 /// Bounding-volume hierarchy over triangles that need not join: closest points and generalised
 /// winding numbers. Queries have no state, so any number of threads may ask.
 class TriangleTree {
@@ -23,6 +30,10 @@ class TriangleTree {
   TriangleTree(const Points& positions, const Triangles& triangles);
 
   ClosestPoint closest(const Vec3& x) const;
+
+  /// The triangles that the segment from a to b passes through, in no order. A segment through an
+  /// edge passes through each triangle at that edge.
+  void crossings(const Vec3& a, const Vec3& b, std::vector<Crossing>& found) const;
 
   /// Σ solid angles / 4π. Far nodes count by the first two terms of their expansion, near
   /// triangles exactly (Barill et al. 2018, Eq. 4–13; van Oosterom & Strackee 1983). Off by less

@@ -73,8 +73,8 @@ Solid::Solid(const Mesh& mesh, const ShapeSpec& spec)
 }
 
 void Solid::sample(const ShapeSpec& spec) {
-  const ClosedRegion region(vertices_, triangulation_.triangles);
-  const SurfaceDefects& defects = region.defects();
+  auto region = std::make_unique<const ClosedRegion>(vertices_, triangulation_.triangles);
+  const SurfaceDefects& defects = region->defects();
   if (defects.inside_out)
     notes_.push_back("the faces point inwards; read as if they pointed outwards");
   if (defects.degenerate_faces > 0)
@@ -83,7 +83,8 @@ void Solid::sample(const ShapeSpec& spec) {
   const long unused = std::count(used_.begin(), used_.end(), false);
   if (unused > 0)
     notes_.push_back(fmt::format("{} vertices that no face uses follow the solid", unused));
-  particles_ = sample_particles(region, sampling_options(spec, unit_, unit_)).particles;
+  region_ = std::move(region);
+  particles_ = sample_particles(*region_, sampling_options(spec, unit_, unit_)).particles;
 }
 
 Points Solid::spread_over_surface(double width) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "io/mesh/mesh.h"
 #include "io/scene/shape_spec.h"
 #include "modeler/domain/surface_samples.h"
@@ -31,6 +33,7 @@ class Solid {
   // In our coordinates:
   const Points& vertices() const { return vertices_; }
   const SurfaceSamples& surface() const { return surface_; }
+  const Region& region() const { return *region_; }
   const Particles& particles() const { return particles_; }
 
   const std::vector<bool>& used_vertices() const { return used_; }  ///< by any face
@@ -58,6 +61,7 @@ class Solid {
   Eigen::RowVector3d origin_;
   double unit_;
   Points vertices_;
+  std::unique_ptr<const Region> region_;
   SurfaceSamples surface_;
   Particles particles_;
   std::vector<std::string> notes_;

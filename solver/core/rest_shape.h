@@ -17,6 +17,10 @@ class Region {
   /// The boundary point nearest to x [m].
   virtual Vec3 closest_boundary_point(const Vec3& x) const = 0;
 
+  /// True where the straight way from a to b, both inside, does not leave the region: not even
+  /// for the width of a gap whose two walls touch.
+  virtual bool connects(const Vec3& a, const Vec3& b) const = 0;
+
   /// Enclosed volume [m³].
   virtual double volume() const = 0;
 

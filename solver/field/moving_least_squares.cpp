@@ -28,11 +28,13 @@ class PointFit {
   /// rim would otherwise vanish in the smallest numbers.
   void weigh(const MovingLeastSquares<Dim>& field, const VectorOf<Dim>& x,
              std::vector<int>& particles) {
+    find_detours(field, x);
     std::size_t kept = 0;
     double greatest = 0;
     for (const int i : particles) {
       const VectorOf<Dim> offset = x - field.positions().row(i).transpose();
-      const J w = kernel_weight<Dim, Order>(field.options().kernel, offset, field.supports()[i]);
+      J w = kernel_weight<Dim, Order>(field.options().kernel, offset, field.supports()[i]);
+      if constexpr (Dim == 3) w = w * transparency(i, field.supports()[i]);
       if (!(w.value() > 0)) continue;
       particles[kept++] = i;
       weights_.push_back(w);
@@ -63,6 +65,27 @@ class PointFit {
   }
 
  private:
+  void find_detours(const MovingLeastSquares<Dim>& field, const VectorOf<Dim>& x) {
+    if constexpr (Dim == 3)
+      if (field.detours()) field.detours()->at(x, detours_);
+  }
+
+  /// (1 − δ²/h²)³: what a detour δ leaves of a weight.
+  J transparency(int particle, double h) const {
+    const auto detour = std::lower_bound(detours_.begin(), detours_.end(), particle,
+                                         [](const Detour& d, int i) { return d.particle < i; });
+    if (detour == detours_.end() || detour->particle != particle) return J(1.0);
+    if (detour->length >= h) return J();
+    J delta(detour->length / h);
+    if constexpr (Order >= 1)
+      for (int k = 0; k < Dim; ++k) delta.first(k) = detour->slope[k] / h;
+    if constexpr (Order >= 2)
+      for (int k = 0; k < Dim; ++k)
+        for (int l = k; l < Dim; ++l) delta.second(k, l) = detour->curvature(k, l) / h;
+    const J rest = J(1.0) - delta * delta;
+    return rest * rest * rest;
+  }
+
   using LinearJets = std::array<J, Dim>;
   using QuadraticJets = std::array<J, quadratics>;
 
@@ -186,6 +209,7 @@ class PointFit {
   }
 
   BasisOrder order_;
+  std::vector<Detour> detours_;
   std::vector<J> weights_;
   std::vector<VectorOf<Dim>> offsets_;
   std::vector<double> supports_;
@@ -223,10 +247,12 @@ void evaluate_jets(const MovingLeastSquares<Dim>& field, const VectorOf<Dim>& x,
 template <int Dim>
 MovingLeastSquares<Dim>::MovingLeastSquares(const PointsOf<Dim>& positions,
                                             const Eigen::VectorXd& supports,
-                                            const MovingLeastSquaresOptions& options)
+                                            const MovingLeastSquaresOptions& options,
+                                            std::shared_ptr<const Detours> detours)
     : positions_(positions),
       supports_(supports),
       options_(options),
+      detours_(std::move(detours)),
       neighbors_(positions, supports * reach_factor(options.kernel, Dim)) {}
 
 template <int Dim>

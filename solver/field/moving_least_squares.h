@@ -1,7 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "solver/field/detours.h"
 #include "solver/field/moving_least_squares_options.h"
 #include "solver/field/neighbors.h"
 
@@ -51,9 +53,11 @@ class SUPPLE_API MovingLeastSquares {
     return order == BasisOrder::linear ? 1 + Dim : 1 + Dim + Dim * (Dim + 1) / 2;
   }
 
-  /// `positions` [m] n×Dim, `supports` h_i [m] n.
+  /// `positions` [m] n×Dim, `supports` h_i [m] n. With `detours` (in space only) particles reach
+  /// a point by the way inside the shape.
   MovingLeastSquares(const PointsOf<Dim>& positions, const Eigen::VectorXd& supports,
-                     const MovingLeastSquaresOptions& options = {});
+                     const MovingLeastSquaresOptions& options = {},
+                     std::shared_ptr<const Detours> detours = nullptr);
 
   /// Shape functions at x [m] with the derivatives asked for; none where x is not covered.
   void evaluate(const VectorOf<Dim>& x, Derivatives derivatives, ShapeFunctions<Dim>& at_x) const;
@@ -61,12 +65,14 @@ class SUPPLE_API MovingLeastSquares {
   const PointsOf<Dim>& positions() const { return positions_; }
   const Eigen::VectorXd& supports() const { return supports_; }
   const MovingLeastSquaresOptions& options() const { return options_; }
+  const std::shared_ptr<const Detours>& detours() const { return detours_; }
   const Neighbors<Dim>& neighbors() const { return neighbors_; }
 
  private:
   PointsOf<Dim> positions_;
   Eigen::VectorXd supports_;
   MovingLeastSquaresOptions options_;
+  std::shared_ptr<const Detours> detours_;
   Neighbors<Dim> neighbors_;
 };
 

@@ -108,6 +108,22 @@ TEST(TriangleTree, OpenSheetHasHalfTheWindingNearIt) {
   EXPECT_NEAR(tree.winding_number({0.1, 0.2, 1e-6}), -0.5, 1e-5);
 }
 
+TEST(TriangleTree, CrossingsAddUpToTheChangeOfTheWindingNumber) {
+  const Mesh torus = make_torus(1, 0.4, 48, 24);
+  const TriangleTree tree(torus.positions, triangles_of(torus));
+  Random random(6);
+  std::vector<Crossing> crossings;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 a = random.in_cube(-1.5, 1.5), b = random.in_cube(-1.5, 1.5);
+    tree.crossings(a, b, crossings);
+    int change = 0;
+    for (const Crossing& crossing : crossings) change += crossing.outward ? -1 : 1;
+    EXPECT_EQ(change, std::round(tree.winding_number(b)) - std::round(tree.winding_number(a)));
+    for (const Crossing& crossing : crossings)
+      EXPECT_LT(tree.closest(a + crossing.share * (b - a)).squared_distance, 1e-24);
+  }
+}
+
 TEST(TriangleTree, TwoHundredThousandTriangles) {
   const Mesh torus = make_torus(1, 0.4, 500, 200);
   const auto start = std::chrono::steady_clock::now();
