@@ -1,5 +1,6 @@
 #include "modeler/pose/pose.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
