@@ -2,6 +2,7 @@
 
 #include "solver/energy/energy.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <functional>
 #include <memory>
