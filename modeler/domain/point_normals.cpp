@@ -14,32 +14,12 @@ namespace supple {
 
 namespace {
 
-constexpr std::array neighbor_counts = {12, 18, 27, 40, 60, 90, 135};
-constexpr Index asked_points = 400;
+constexpr std::array neighbor_counts = {12, 18, 27, 40, 60, 90, 135, 200, 300, 450};
+constexpr Index asked_points = 200;
 constexpr int tree_neighbors = 12;
 constexpr int most_parts = 32;
 constexpr double least_part = 0.005;  // of the points
 constexpr Index least_points = 12;
-
-/// The count of neighbours that lie nearest to a plane, in the mean over some points.
-int flattest_count(const Points& positions) {
-  const SiteTree tree(positions);
-  const Index step = std::max<Index>(1, positions.rows() / asked_points);
-  std::array<double, neighbor_counts.size()> off_plane{};
-  std::vector<Index> sites(neighbor_counts.back());
-  std::vector<double> squared_distances(sites.size());
-  std::vector<int> others;
-  for (Index i = 0; i < positions.rows(); i += step) {
-    const int found = tree.nearest(positions.row(i), sites, squared_distances);
-    others.assign(sites.begin(), sites.begin() + found);
-    for (std::size_t c = 0; c < neighbor_counts.size(); ++c) {
-      const auto count = static_cast<std::size_t>(std::min(found, neighbor_counts[c]));
-      off_plane[c] += principal_axes(positions, i, std::span(others).first(count)).off_plane();
-    }
-  }
-  const auto least = std::min_element(off_plane.begin(), off_plane.end());
-  return neighbor_counts[static_cast<std::size_t>(least - off_plane.begin())];
-}
 
 Points plane_normals(const Points& positions, const PointNeighbors& neighbors) {
   Points normals(positions.rows(), 3);
@@ -62,9 +42,31 @@ struct PartMoments {
 
 }  // namespace
 
+int flattest_neighbors(const Points& positions, const Points& normals) {
+  const SiteTree tree(positions);
+  const Index step = std::max<Index>(1, positions.rows() / asked_points);
+  std::array<double, neighbor_counts.size()> off_plane{};
+  std::vector<Index> sites(neighbor_counts.back());
+  std::vector<double> squared_distances(sites.size());
+  std::vector<int> others;
+  for (Index i = 0; i < positions.rows(); i += step) {
+    const int found = tree.nearest(positions.row(i), sites, squared_distances);
+    others.clear();
+    for (int k = 0; k < found; ++k)
+      if (normals.rows() == 0 || normals.row(i).dot(normals.row(sites[k])) > 0)
+        others.push_back(static_cast<int>(sites[k]));
+    for (std::size_t c = 0; c < neighbor_counts.size(); ++c) {
+      const auto count = std::min(others.size(), static_cast<std::size_t>(neighbor_counts[c]));
+      off_plane[c] += principal_axes(positions, i, std::span(others).first(count)).off_plane();
+    }
+  }
+  const auto least = std::min_element(off_plane.begin(), off_plane.end());
+  return neighbor_counts[static_cast<std::size_t>(least - off_plane.begin())];
+}
+
 PointNormals estimate_normals(const Points& positions) {
   PointNormals result;
-  result.neighbors = flattest_count(positions);
+  result.neighbors = flattest_neighbors(positions);
   const PointNeighbors neighbors(positions, result.neighbors);
   Points& normals = result.normals = plane_normals(positions, neighbors);
   const std::vector<int> parts = orient_normals(positions, tree_neighbors, most_parts, normals);
