@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "modeler/domain/closed_region.h"
+#include "modeler/domain/surface_measures.h"
 #include "modeler/plan/plan.h"
 #include "modeler/pose/handles.h"
 #include "modeler/pose/pose_solver.h"
@@ -192,6 +192,7 @@ constexpr double notable_volume_change = 0.05;
 void judge(const Solid& solid, const SolidField& field, const InversionCount& inversion,
            PoseResult& result) {
   Report& report = result.report;
+  for (const Reason& reason : solid.reasons()) report.degrade(reason);
   if (inversion.inverted > 0)
     report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
                     fmt::format("{} points are turned inside out, the worst with det F = {:.3g}",

@@ -5,6 +5,7 @@
 #include "io/mesh/mesh.h"
 #include "io/scene/shape_spec.h"
 #include "modeler/domain/surface_samples.h"
+#include "solver/core/report.h"
 #include "solver/core/rest_shape.h"
 #include "solver/field/samples.h"
 
@@ -38,6 +39,7 @@ class Solid {
 
   const std::vector<bool>& used_vertices() const { return used_; }  ///< by any face
   const std::vector<std::string>& notes() const { return notes_; }
+  const std::vector<Reason>& reasons() const { return reasons_; }  ///< that degrade any result
   Vec3 origin() const { return origin_.transpose(); }
   double unit() const { return unit_; }
 
@@ -51,7 +53,7 @@ class Solid {
   Quadrature quadrature(QuadratureKind kind) const;
 
  private:
-  void sample(const ShapeSpec& spec);
+  void sample(const Mesh& mesh, const ShapeSpec& spec);
   /// Surface points about `width` apart, in our coordinates.
   Points spread_over_surface(double width) const;
 
@@ -65,6 +67,7 @@ class Solid {
   SurfaceSamples surface_;
   Particles particles_;
   std::vector<std::string> notes_;
+  std::vector<Reason> reasons_;
 };
 
 /// `mesh` scaled and centred as `spec.size` asks, or as it is.
