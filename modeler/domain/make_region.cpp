@@ -72,6 +72,7 @@ std::vector<std::string> empty_parts(const MeshRegion& region, const Points& par
 SolidRegion make_region(const Mesh&, const Points& vertices, const Triangles& triangles) {
   auto region = std::make_unique<const MeshRegion>(vertices, triangles);
   SolidRegion solid;
+  solid.boundary = region->boundary();
   solid.notes = mending_notes(region->defects());
   add_cover(*region, solid);
   solid.empty_parts = [shape = region.get()](const Points& particles) {

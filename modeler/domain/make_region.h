@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/mesh/mesh.h"
+#include "modeler/domain/carried_boundary.h"
 #include "solver/core/report.h"
 #include "solver/core/rest_shape.h"
 
@@ -14,6 +15,7 @@ namespace supple {
 /// The region that a shape bounds, and what is to be said about it.
 struct SolidRegion {
   std::unique_ptr<const Region> region;
+  CarriedBoundary boundary;        ///< empty where it is not of the mesh's vertices
   std::vector<std::string> notes;  ///< what was mended, a sentence each
   std::vector<Reason> reasons;     ///< what makes the result less than ok
 

@@ -83,6 +83,7 @@ void Solid::sample(const Mesh& mesh, const ShapeSpec& spec) {
   for (std::string& note : solid.empty_parts(particles_.positions))
     notes_.push_back(std::move(note));
   region_ = std::move(solid.region);
+  boundary_ = std::move(solid.boundary);
 }
 
 Points Solid::spread_over_surface(double width) const {

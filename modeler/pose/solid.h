@@ -4,6 +4,7 @@
 
 #include "io/mesh/mesh.h"
 #include "io/scene/shape_spec.h"
+#include "modeler/domain/carried_boundary.h"
 #include "modeler/domain/surface_samples.h"
 #include "solver/core/report.h"
 #include "solver/core/rest_shape.h"
@@ -35,6 +36,7 @@ class Solid {
   const Points& vertices() const { return vertices_; }
   const SurfaceSamples& surface() const { return surface_; }
   const Region& region() const { return *region_; }
+  const CarriedBoundary& boundary() const { return boundary_; }
   const Particles& particles() const { return particles_; }
 
   const std::vector<bool>& used_vertices() const { return used_; }  ///< by any face
@@ -64,6 +66,7 @@ class Solid {
   double unit_;
   Points vertices_;
   std::unique_ptr<const Region> region_;
+  CarriedBoundary boundary_;
   SurfaceSamples surface_;
   Particles particles_;
   std::vector<std::string> notes_;
