@@ -98,8 +98,19 @@ class Polygonizer {
       for (const auto& tetrahedron : tetrahedra) cut(node, tetrahedron);
   }
 
-  const std::vector<Root>& roots() const { return roots_; }
-  const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
+  RegionCover cover() const {
+    Points positions(static_cast<Index>(roots_.size()), 3);
+    std::vector<bool> on_input;
+    for (const Root& root : roots_) {
+      positions.row(static_cast<Index>(on_input.size())) = root.position.transpose();
+      on_input.push_back(root.on_input);
+    }
+    Triangles triangles(static_cast<Index>(triangles_.size()), 3);
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      for (int k = 0; k < 3; ++k)
+        triangles(static_cast<Index>(t), k) = triangles_[t][static_cast<std::size_t>(k)];
+    return measure_cover(positions, triangles, on_input);
+  }
 
  private:
   bool inside(Index node) const { return values_[static_cast<std::size_t>(node)] > 0.5; }
@@ -212,8 +223,9 @@ class Polygonizer {
 /// Areas of the boundary's pieces and the caps among them.
 class Accountant {
  public:
-  explicit Accountant(const Polygonizer& boundary) : roots_(boundary.roots()) {
-    for (const auto& triangle : boundary.triangles()) add(triangle);
+  Accountant(const Points& positions, const Triangles& triangles, const std::vector<bool>& on_input)
+      : boundary_(positions), on_input_(on_input) {
+    for (Index t = 0; t < triangles.rows(); ++t) add(triangles.row(t));
     cover_.caps.resize(static_cast<Index>(caps_.size()), 3);
     for (std::size_t t = 0; t < caps_.size(); ++t)
       for (int k = 0; k < 3; ++k)
@@ -231,13 +243,12 @@ class Accountant {
   }
 
  private:
-  void add(const std::array<int, 3>& triangle) {
+  void add(const Eigen::RowVector3i& triangle) {
     std::array<Vec3, 3> x;
     int beyond = 0;
     for (int k = 0; k < 3; ++k) {
-      const Root& root = roots_[static_cast<std::size_t>(triangle[k])];
-      x[k] = root.position;
-      if (!root.on_input) ++beyond;
+      x[k] = boundary_.row(triangle[k]);
+      if (!on_input_[static_cast<std::size_t>(triangle[k])]) ++beyond;
     }
     const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
     cover_.area += area;
@@ -248,13 +259,13 @@ class Accountant {
     caps_.push_back({cap_vertex(triangle[0]), cap_vertex(triangle[1]), cap_vertex(triangle[2])});
   }
 
-  int cap_vertex(int root) {
-    if (numbers_.empty()) numbers_.assign(roots_.size(), -1);
-    int& number = numbers_[static_cast<std::size_t>(root)];
+  int cap_vertex(int vertex) {
+    if (numbers_.empty()) numbers_.assign(on_input_.size(), -1);
+    int& number = numbers_[static_cast<std::size_t>(vertex)];
     if (number < 0) {
       number = static_cast<int>(positions_.size());
-      positions_.push_back(roots_[static_cast<std::size_t>(root)].position);
-      cover_.cap_on_input.push_back(roots_[static_cast<std::size_t>(root)].on_input);
+      positions_.push_back(boundary_.row(vertex));
+      cover_.cap_on_input.push_back(on_input_[static_cast<std::size_t>(vertex)]);
     }
     return number;
   }
@@ -276,14 +287,15 @@ class Accountant {
     cover_.opening = sums[static_cast<std::size_t>(greatest - areas.begin())] / *greatest;
   }
 
-  const std::vector<Root>& roots_;
+  const Points& boundary_;
+  const std::vector<bool>& on_input_;
   RegionCover cover_;
   double open_area_ = 0;
   std::vector<double> open_areas_;  ///< by cap
   std::vector<Vec3> middles_;       ///< by cap
   std::vector<std::array<int, 3>> caps_;
   std::vector<Vec3> positions_;
-  std::vector<int> numbers_;  ///< of cap positions, by root; −1: none
+  std::vector<int> numbers_;  ///< of cap positions, by the boundary's; −1: none
 };
 
 }  // namespace
@@ -292,7 +304,12 @@ RegionCover cover_region(const ImplicitRegion& region, const RegionCoverOptions&
   const double diagonal = region.box.diagonal();
   if (!(diagonal > 0)) return {};
   const double width = options.width > 0 ? options.width : diagonal / cells_a_diagonal;
-  return Accountant(Polygonizer(region, width, options.reach)).cover();
+  return Polygonizer(region, width, options.reach).cover();
+}
+
+RegionCover measure_cover(const Points& positions, const Triangles& triangles,
+                          const std::vector<bool>& on_input) {
+  return Accountant(positions, triangles, on_input).cover();
 }
 
 }  // namespace supple

@@ -55,4 +55,9 @@ struct RegionCover {
 /// being known, better elsewhere. Openings narrower than a cell are not seen.
 RegionCover cover_region(const ImplicitRegion& region, const RegionCoverOptions& options);
 
+/// The same of a boundary that is known: `positions` [m] n×3, closed triangles, and for each
+/// position whether it lies within reach of the input.
+RegionCover measure_cover(const Points& positions, const Triangles& triangles,
+                          const std::vector<bool>& on_input);
+
 }  // namespace supple
