@@ -297,11 +297,4 @@ CarriedBoundary MeshRegion::boundary() const {
   return boundary;
 }
 
-double enclosed_volume(const CarriedBoundary& boundary, const Points& vertices,
-                       const Points& extra) {
-  Points positions(vertices.rows() + extra.rows(), 3);
-  positions << vertices, extra;
-  return signed_volume(positions, boundary.triangles);
-}
-
 }  // namespace supple

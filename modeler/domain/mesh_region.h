@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "modeler/domain/carried_boundary.h"
 #include "modeler/domain/mended_surface.h"
 #include "modeler/domain/surface_contact.h"
 #include "solver/core/rest_shape.h"
@@ -21,13 +22,6 @@ struct MeshCover {
 struct MeshPart {
   double volume_share = 0;  ///< of the region's volume
   long particles = 0;       ///< of those asked for that lie in it
-};
-
-/// The boundary as triangles of the mesh's vertices and of further points, so that it can follow
-/// a deformation of the mesh.
-struct CarriedBoundary {
-  Triangles triangles;  ///< outward; a vertex number beyond the mesh's counts on into `extra`
-  Points extra;         ///< [m]
 };
 
 /// The inside of triangles as they come — open, doubled, crossing, turned at random, in several
@@ -67,10 +61,5 @@ class MeshRegion final : public Region {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
-
-/// Volume within a boundary carried along [m³]: `vertices` are the mesh's, `extra` the boundary's
-/// further points, both where they are now.
-double enclosed_volume(const CarriedBoundary& boundary, const Points& vertices,
-                       const Points& extra);
 
 }  // namespace supple

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "modeler/domain/surface_measures.h"
 #include "modeler/plan/plan.h"
 #include "modeler/pose/handles.h"
 #include "modeler/pose/pose_solver.h"
@@ -158,6 +157,18 @@ void measure_handles(const Solid& solid, const SolidField& field, const HandleSa
     result.handle_rms_error = std::sqrt(all_squares / static_cast<double>(all_samples));
 }
 
+/// Within the region's boundary, at rest and carried along: the mesh itself may be open.
+void measure_volume(const Solid& solid, const SolidField& field, const Points& u,
+                    const DeformedSurface& surface, PoseResult& result) {
+  const CarriedBoundary& boundary = solid.boundary();
+  const Samples samples = sample_field(field.mls, boundary.extra, SampleContent::values);
+  Points extra(boundary.extra.rows(), 3);
+  for (Index k = 0; k < extra.rows(); ++k) extra.row(k) = samples.position(k, u).transpose();
+  const double unit = std::pow(solid.unit(), 3);
+  result.volume_before = unit * enclosed_volume(boundary, solid.vertices(), boundary.extra);
+  result.volume_after = unit * enclosed_volume(boundary, surface.positions, extra);
+}
+
 /// The smallest det F over particles and the surface's vertices, and how many are not positive.
 InversionCount worst_inversion(const Solid& solid, const SolidField& field, const Points& u,
                                const DeformedSurface& surface) {
@@ -267,8 +278,7 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   result.displacements = solid.unit() * u;
   result.handle_rest = solid.restored(handles.rest());
   result.handle_targets = solid.restored(handles.targets(1));
-  result.volume_before = signed_volume(result.rest.positions, solid.triangulation().triangles);
-  result.volume_after = signed_volume(result.mesh.positions, solid.triangulation().triangles);
+  measure_volume(solid, *field, u, surface, result);
   measure_handles(solid, *field, handles, u, result);
 
   const InversionCount inversion = worst_inversion(solid, *field, u, surface);
