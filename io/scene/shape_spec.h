@@ -30,7 +30,7 @@ struct ShapeSpec {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
-    visit("mesh", self.mesh, {.doc = "triangle or polygon mesh: OBJ, PLY, OFF, STL"});
+    visit("mesh", self.mesh, {.doc = "polygon mesh (OBJ, PLY, OFF, STL) or point cloud (PLY, PCD, PWN, XYZ)"});
     visit("units", self.units,
           {.doc = "unit of the mesh file and of lengths; a pose is the same "
                   "in all"});

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "io/errors.h"
+#include "io/mesh/mesh_files.h"
 
 namespace supple {
 namespace {
@@ -55,7 +56,8 @@ std::string value_form() {
 }  // namespace
 
 void SceneArguments::declare(CommandLine& line) {
-  line.positional("SHAPE", "a mesh (OBJ, PLY, OFF, STL), or a scene (.yaml)",
+  line.positional("SHAPE",
+                  fmt::format("a mesh or a point cloud ({}), or a scene (.yaml)", mesh_formats()),
                   [this](const std::string& value) { path_ = value; });
   handles_.declare(line);
   line.begin_group("Shape");
