@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "io/errors.h"
-#include "io/mesh/mesh_files.h"
 
 namespace supple {
 namespace {
@@ -17,7 +16,8 @@ constexpr const char* shape_scene = "shape: {mesh: SHAPE}\npose: {}\n";
 
 /// Keys that are not options of their own: what the command line says in other words, and
 /// shape.size, since --size is the picture's.
-constexpr std::array<std::string_view, 3> not_options{"shape.mesh", "pose.handles", "shape.size"};
+constexpr std::array<std::string_view, 4> not_options{"shape.mesh", "shape.points", "pose.handles",
+                                                      "shape.size"};
 
 template <class T>
 struct Unwrapped {
@@ -56,9 +56,10 @@ std::string value_form() {
 }  // namespace
 
 void SceneArguments::declare(CommandLine& line) {
-  line.positional("SHAPE",
-                  fmt::format("a mesh or a point cloud ({}), or a scene (.yaml)", mesh_formats()),
-                  [this](const std::string& value) { path_ = value; });
+  line.positional(
+      "SHAPE",
+      "a mesh (OBJ, PLY, OFF, STL), a point cloud (PLY, XYZ, PWN, PCD), or a scene (.yaml)",
+      [this](const std::string& value) { path_ = value; });
   handles_.declare(line);
   line.begin_group("Shape");
   declare_knobs<ShapeSpec>(line, "shape", "--");
@@ -141,7 +142,7 @@ Scene SceneArguments::read() const {
 
 Scene SceneArguments::read_shape(const SceneOverrides& overrides) const {
   for (const auto& [key, value] : overrides)
-    if (key.starts_with("pose.handles") || key == "shape.mesh")
+    if (key.starts_with("pose.handles") || key == "shape.mesh" || key == "shape.points")
       throw UsageError(
           fmt::format("--set {}: only with a scene file; a shape has its handles from "
                       "--fix and --move",
