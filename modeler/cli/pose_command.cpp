@@ -104,6 +104,8 @@ void write_outputs(const PoseArguments& arguments, ProgressLine& line, PoseRun& 
   line.show("write", 0);
   InterruptWatch::check();
   if (!arguments.mesh.empty()) {
+    for (std::string& sentence : left_out_by(arguments.mesh, run.result->mesh))
+      run.result->report.notes.push_back(std::move(sentence));
     write_mesh(run.result->mesh, arguments.mesh);
     run.outputs.push_back(arguments.mesh);
   }
