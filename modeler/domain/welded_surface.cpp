@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "modeler/domain/disjoint_sets.h"
+
 namespace supple {
 
 namespace {
@@ -28,16 +30,10 @@ std::vector<int> number_positions(const Points& positions, std::vector<int>& fir
   return numbers;
 }
 
-Triangles rows_of(const Triangles& triangles, const std::vector<Index>& rows) {
+Triangles rows_of(const Triangles& triangles, const std::vector<int>& rows) {
   Triangles result(static_cast<Index>(rows.size()), 3);
   for (Index i = 0; i < result.rows(); ++i) result.row(i) = triangles.row(rows[i]);
   return result;
-}
-
-/// The representative of i's set; halves the path to it on the way.
-int root_of(std::vector<int>& parents, int i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
 }
 
 }  // namespace
@@ -51,39 +47,49 @@ WeldedSurface weld(const Points& positions, const Triangles& triangles) {
     surface.positions.row(i) = positions.row(firsts[i]);
 
   Triangles welded = triangles.unaryExpr([&](int vertex) { return numbers[vertex]; });
-  std::vector<Index> kept;
+  std::vector<int> kept;
   for (Index t = 0; t < welded.rows(); ++t)
     if (welded(t, 0) != welded(t, 1) && welded(t, 1) != welded(t, 2) &&
         welded(t, 2) != welded(t, 0))
-      kept.push_back(t);
+      kept.push_back(static_cast<int>(t));
   surface.triangles = rows_of(welded, kept);
   surface.repeated = triangles.rows() - surface.triangles.rows();
   return surface;
 }
 
-Triangles with_area(const Points& positions, const Triangles& triangles) {
-  std::vector<Index> kept;
+std::vector<int> first_at_position(const Points& positions) {
+  std::vector<int> firsts;
+  std::vector<int> numbers = number_positions(positions, firsts);
+  for (int& number : numbers) number = firsts[number];
+  return numbers;
+}
+
+std::vector<int> rows_with_area(const Points& positions, const Triangles& triangles) {
+  std::vector<int> kept;
   for (Index t = 0; t < triangles.rows(); ++t) {
     const Vec3 a = positions.row(triangles(t, 0));
     const Vec3 ab = positions.row(triangles(t, 1)).transpose() - a;
     const Vec3 ac = positions.row(triangles(t, 2)).transpose() - a;
     // Below the rounding of a cross product of edges this long, an area is none.
     const double rounding = 1e-15 * ab.norm() * ac.norm();
-    if (ab.cross(ac).norm() > rounding) kept.push_back(t);
+    if (ab.cross(ac).norm() > rounding) kept.push_back(static_cast<int>(t));
   }
-  return rows_of(triangles, kept);
+  return kept;
+}
+
+Triangles with_area(const Points& positions, const Triangles& triangles) {
+  return rows_of(triangles, rows_with_area(positions, triangles));
 }
 
 std::vector<int> connected_parts(const Triangles& triangles) {
-  std::vector<int> parents(triangles.size() > 0 ? triangles.maxCoeff() + 1 : 0);
-  std::iota(parents.begin(), parents.end(), 0);
+  const std::size_t vertices = triangles.size() > 0 ? triangles.maxCoeff() + 1 : 0;
+  DisjointSets joined(vertices);
   for (Index t = 0; t < triangles.rows(); ++t)
-    for (int k = 1; k < 3; ++k)
-      parents[root_of(parents, triangles(t, k))] = root_of(parents, triangles(t, 0));
-  std::vector<int> numbers(parents.size(), -1), parts(triangles.rows());
+    for (int k = 1; k < 3; ++k) joined.unite(triangles(t, k), triangles(t, 0));
+  std::vector<int> numbers(vertices, -1), parts(triangles.rows());
   int count = 0;
   for (Index t = 0; t < triangles.rows(); ++t) {
-    int& number = numbers[root_of(parents, triangles(t, 0))];
+    int& number = numbers[joined.root(triangles(t, 0))];
     if (number < 0) number = count++;
     parts[t] = number;
   }

@@ -14,6 +14,12 @@ struct WeldedSurface {
 };
 WeldedSurface weld(const Points& positions, const Triangles& triangles);
 
+/// For each vertex the first one at the same position.
+std::vector<int> first_at_position(const Points& positions);
+
+/// Numbers of the triangles that have an area, ascending.
+std::vector<int> rows_with_area(const Points& positions, const Triangles& triangles);
+
 /// The triangles that have an area.
 Triangles with_area(const Points& positions, const Triangles& triangles);
 

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/core/types.h"
+
+namespace supple {
+
+/// Pairs of triangles that have more in common than the vertices they share.
+struct SelfIntersections {
+  long count = 0;
+  std::vector<std::array<int, 2>> pairs;  ///< the first few, ascending
+  double tested = 1;  ///< share of the triangles that were held against the rest; below 1 `count`
+                      ///< is an estimate
+};
+
+struct SelfIntersectionOptions {
+  double most_candidates = 3e7;  ///< pairs of triangles whose boxes meet, beyond which it samples
+  int most_pairs = 5;            ///< kept of those found
+};
+
+/// Exact tests (orientation.h) of all pairs whose boxes meet. Vertices at one position are shared;
+/// triangles with the same three are copies of each other, and none of them counts.
+/// Triangles without area are left out.
+SelfIntersections self_intersections(const Points& positions, const Triangles& triangles,
+                                     const SelfIntersectionOptions& options = {});
+
+}  // namespace supple
