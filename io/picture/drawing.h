@@ -21,6 +21,18 @@ struct DrawnBalls {
   double radius = 0;  ///< [m]; 0: chosen by the picture's scale
 };
 
+/// Lines of one width, two vertices each.
+struct DrawnLines {
+  std::vector<DrawnVertex> ends;
+  double width = 1;  ///< [px]
+};
+
+/// Triangles that no light changes.
+struct DrawnSheet {
+  std::vector<DrawnVertex> vertices;
+  std::vector<std::uint32_t> indices;  ///< three a triangle
+};
+
 /// An item ready for the graphics library: positions are (x − origin) / size, so that single
 /// precision serves every unit and every distance from the origin. Whatever touches a coordinate
 /// that is not finite is left out.
@@ -31,6 +43,10 @@ struct Drawing {
   std::vector<std::uint32_t> indices;  ///< three a triangle
   DrawnBalls points;                   ///< of a mesh without faces
   std::vector<DrawnBalls> markers;
+  double opacity = 1;                             ///< of the surface
+  Eigen::Vector4f cut = Eigen::Vector4f::Zero();  ///< x is left out where cut·(x, 1) > 0
+  std::vector<DrawnLines> lines;
+  std::vector<DrawnSheet> sheets;
 };
 
 /// [m]

@@ -35,6 +35,7 @@ struct Gl {
   decltype(&glBufferData) buffer_data = load("glBufferData");
   decltype(&glCheckFramebufferStatus) check_framebuffer = load("glCheckFramebufferStatus");
   decltype(&glClear) clear = load("glClear");
+  decltype(&glColorMask) color_mask = load("glColorMask");
   decltype(&glCompileShader) compile_shader = load("glCompileShader");
   decltype(&glCreateProgram) create_program = load("glCreateProgram");
   decltype(&glCreateShader) create_shader = load("glCreateShader");
@@ -45,6 +46,7 @@ struct Gl {
   decltype(&glDeleteShader) delete_shader = load("glDeleteShader");
   decltype(&glDeleteTextures) delete_textures = load("glDeleteTextures");
   decltype(&glDeleteVertexArrays) delete_vertex_arrays = load("glDeleteVertexArrays");
+  decltype(&glDepthFunc) depth_function = load("glDepthFunc");
   decltype(&glDisable) disable = load("glDisable");
   decltype(&glDrawArrays) draw_arrays = load("glDrawArrays");
   decltype(&glDrawElements) draw_elements = load("glDrawElements");
@@ -68,6 +70,7 @@ struct Gl {
   decltype(&glTexImage2D) texture_image = load("glTexImage2D");
   decltype(&glTexParameteri) texture_parameter = load("glTexParameteri");
   decltype(&glUniform1f) uniform_1f = load("glUniform1f");
+  decltype(&glUniform4fv) uniform_4fv = load("glUniform4fv");
   decltype(&glUniformMatrix3fv) uniform_matrix3 = load("glUniformMatrix3fv");
   decltype(&glUniformMatrix4fv) uniform_matrix4 = load("glUniformMatrix4fv");
   decltype(&glUseProgram) use_program = load("glUseProgram");

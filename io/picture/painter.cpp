@@ -1,5 +1,6 @@
 #include "io/picture/painter.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -90,6 +91,31 @@ void set_matrix(const Gl& gl, const GlProgram& program, const char* name,
   gl.uniform_matrix4(program.uniform(name), 1, GL_FALSE, values.data());
 }
 
+/// Lines as strips that face the viewer, a little in front of what they lie on: OpenGL itself need
+/// not draw lines wider than a pixel.
+DrawnSheet strips_of(const DrawnLines& lines, const Drawing& drawing, const View& view) {
+  const double half_width = 0.5 * lines.width / (view.pixels_per_meter * drawing.size);
+  const Vec3 towards = view.rotation.row(2);
+  DrawnSheet strips;
+  strips.vertices.reserve(2 * lines.ends.size());
+  for (std::size_t i = 0; i + 1 < lines.ends.size(); i += 2) {
+    const auto point = [&](std::size_t end) {
+      const auto& x = lines.ends[end].position;
+      return Vec3(x[0], x[1], x[2]);
+    };
+    const Vec3 across = towards.cross(point(i + 1) - point(i)).normalized();
+    const auto first = static_cast<std::uint32_t>(strips.vertices.size());
+    for (const std::size_t end : {i, i + 1})
+      for (const double side : {-half_width, half_width}) {
+        const Vec3 x = point(end) + side * across + half_width * towards;
+        strips.vertices.push_back(lines.ends[end]);
+        for (int k = 0; k < 3; ++k) strips.vertices.back().position[k] = static_cast<float>(x[k]);
+      }
+    for (const std::uint32_t corner : {0, 1, 2, 2, 1, 3}) strips.indices.push_back(first + corner);
+  }
+  return strips;
+}
+
 }  // namespace
 
 Painter::Painter(int width, int height)
@@ -99,6 +125,7 @@ Painter::Painter(int width, int height)
       background_(gl_, {shaders::background_vertex}, {shaders::background_fragment}),
       surface_(gl_, {shaders::surface_vertex}, {shaders::lighting, shaders::surface_fragment}),
       ball_(gl_, {shaders::ball_vertex}, {shaders::lighting, shaders::ball_fragment}),
+      flat_(gl_, {shaders::flat_vertex}, {shaders::flat_fragment}),
       ground_(gl_, {shaders::ground_vertex}, {shaders::ground_fragment}),
       canvas_(gl_, fineness * width, fineness * height) {
   gl_.enable(GL_PROGRAM_POINT_SIZE);
@@ -126,8 +153,9 @@ void Painter::draw_shape(const Drawing& drawing, const View& view, const Place& 
   use_column(view, place.column);
   if (!drawing.indices.empty()) {
     if (place.ground_shadow && view.rotation.row(2).dot(view.up) > 0) draw_shadow(drawing, view);
-    draw_surface(drawing, view);
+    if (drawing.opacity >= 1) draw_surface(drawing, view);
   }
+  for (const DrawnSheet& sheet : drawing.sheets) draw_flat(drawing, sheet, view);
   draw_balls(drawing, drawing.points, view);
 }
 
@@ -136,12 +164,46 @@ void Painter::draw_markers(const Drawing& drawing, const View& view, int column)
   for (const DrawnBalls& balls : drawing.markers) draw_balls(drawing, balls, view);
 }
 
+void Painter::draw_lines(const Drawing& drawing, const View& view, int column) const {
+  use_column(view, column);
+  for (const DrawnLines& lines : drawing.lines)
+    draw_flat(drawing, strips_of(lines, drawing, view), view);
+}
+
+void Painter::draw_veil(const Drawing& drawing, const View& view, int column) const {
+  if (drawing.opacity >= 1 || drawing.indices.empty()) return;
+  use_column(view, column);
+  // The depth alone first, so that the colour of the nearest side only is laid over the rest.
+  gl_.color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_surface(drawing, view);
+  gl_.color_mask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl_.depth_function(GL_EQUAL);
+  gl_.enable(GL_BLEND);
+  gl_.blend_function(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  draw_surface(drawing, view);
+  gl_.disable(GL_BLEND);
+  gl_.depth_function(GL_LESS);
+}
+
+void Painter::draw_flat(const Drawing& drawing, const DrawnSheet& sheet, const View& view) const {
+  if (sheet.indices.empty()) return;
+  const VertexArray array(gl_, sheet.vertices, sheet.indices);
+  flat_.use();
+  set_matrix(gl_, flat_, "to_clip", clip_from_world(view) * world_from_drawing(drawing));
+  gl_.enable(GL_DEPTH_TEST);
+  gl_.draw_elements(GL_TRIANGLES, static_cast<GLsizei>(sheet.indices.size()), GL_UNSIGNED_INT,
+                    nullptr);
+  gl_.disable(GL_DEPTH_TEST);
+}
+
 void Painter::draw_surface(const Drawing& drawing, const View& view) const {
   const Eigen::Matrix3f to_view = view.rotation.cast<float>();
   const VertexArray array(gl_, drawing.vertices, drawing.indices);
   surface_.use();
   set_matrix(gl_, surface_, "to_clip", clip_from_world(view) * world_from_drawing(drawing));
   gl_.uniform_matrix3(surface_.uniform("to_view"), 1, GL_FALSE, to_view.data());
+  gl_.uniform_4fv(surface_.uniform("cut"), 1, drawing.cut.data());
+  gl_.uniform_1f(surface_.uniform("opacity"), static_cast<float>(drawing.opacity));
   gl_.enable(GL_DEPTH_TEST);
   gl_.draw_elements(GL_TRIANGLES, static_cast<GLsizei>(drawing.indices.size()), GL_UNSIGNED_INT,
                     nullptr);

@@ -170,9 +170,9 @@ class Surveyor {
       if (is_nonmanifold(edge)) add_edge(DefectKind::nonmanifold_edges, edge);
       if (is_inconsistent(edge)) add_edge(DefectKind::inconsistent_edges, edge);
     });
-    for (const int vertex : nonmanifold_vertices(joined_, sides))
-      add_vertex(DefectKind::nonmanifold_vertices, vertex);
     survey_.topology = topology(joined_, sides);
+    for (const int vertex : survey_.topology.nonmanifold_vertices)
+      add_vertex(DefectKind::nonmanifold_vertices, vertex);
   }
 
   void find_faces() {
@@ -202,7 +202,8 @@ class Surveyor {
   }
 
   void find_intersections() {
-    const SelfIntersections found = self_intersections(mesh_.positions, cut_.triangles);
+    const SelfIntersections found = self_intersections(
+        mesh_.positions, cut_.triangles.unaryExpr([this](int vertex) { return firsts_[vertex]; }));
     for (const auto& [s, t] : found.pairs)
       add_face(DefectKind::self_intersections, {cut_.faces[s], cut_.faces[t]});
     Defect& defect = survey_.defects[static_cast<std::size_t>(DefectKind::self_intersections)];

@@ -41,25 +41,7 @@ bool orientable(const FaceList& faces, const std::vector<FaceSide>& sides) {
   return true;
 }
 
-}  // namespace
-
-std::vector<FaceSide> face_sides(const FaceList& faces) {
-  const std::vector<FaceSide> unsorted = unsorted_sides(faces);
-  std::vector<std::size_t> starts(vertex_count(faces) + 1, 0);
-  for (const FaceSide& side : unsorted) ++starts[side.low + 1];
-  for (std::size_t v = 1; v < starts.size(); ++v) starts[v] += starts[v - 1];
-  std::vector<FaceSide> sides(unsorted.size());
-  std::vector<std::size_t> next = starts;
-  for (const FaceSide& side : unsorted) sides[next[side.low]++] = side;
-  for (std::size_t v = 0; v + 1 < starts.size(); ++v)
-    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(starts[v]),
-              sides.begin() + static_cast<std::ptrdiff_t>(starts[v + 1]),
-              [](const FaceSide& a, const FaceSide& b) {
-                return a.high != b.high ? a.high < b.high : a.from < b.from;
-              });
-  return sides;
-}
-
+/// Where corners that share a vertex do not reach each other over edges.
 std::vector<int> nonmanifold_vertices(const FaceList& faces, const std::vector<FaceSide>& sides) {
   DisjointSets fans(faces.vertices.size());  // of corners
   for_each_edge(sides, [&](FaceEdge edge) {
@@ -79,6 +61,25 @@ std::vector<int> nonmanifold_vertices(const FaceList& faces, const std::vector<F
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+}  // namespace
+
+std::vector<FaceSide> face_sides(const FaceList& faces) {
+  const std::vector<FaceSide> unsorted = unsorted_sides(faces);
+  std::vector<std::size_t> starts(vertex_count(faces) + 1, 0);
+  for (const FaceSide& side : unsorted) ++starts[side.low + 1];
+  for (std::size_t v = 1; v < starts.size(); ++v) starts[v] += starts[v - 1];
+  std::vector<FaceSide> sides(unsorted.size());
+  std::vector<std::size_t> next = starts;
+  for (const FaceSide& side : unsorted) sides[next[side.low]++] = side;
+  for (std::size_t v = 0; v + 1 < starts.size(); ++v)
+    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(starts[v]),
+              sides.begin() + static_cast<std::ptrdiff_t>(starts[v + 1]),
+              [](const FaceSide& a, const FaceSide& b) {
+                return a.high != b.high ? a.high < b.high : a.from < b.from;
+              });
+  return sides;
 }
 
 std::vector<int> face_components(const FaceList& faces) {
@@ -107,7 +108,7 @@ Topology topology(const FaceList& faces, const std::vector<FaceSide>& sides) {
     result.nonmanifold_edges += is_nonmanifold(edge) ? 1 : 0;
     result.inconsistent_edges += is_inconsistent(edge) ? 1 : 0;
   });
-  result.nonmanifold_vertices = static_cast<long>(nonmanifold_vertices(faces, sides).size());
+  result.nonmanifold_vertices = nonmanifold_vertices(faces, sides);
   const std::vector<int> components = face_components(faces);
   if (!components.empty())
     result.components = *std::max_element(components.begin(), components.end()) + 1;

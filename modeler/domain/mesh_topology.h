@@ -54,25 +54,23 @@ inline bool is_inconsistent(FaceEdge edge) {
   return edge.size() == 2 && edge[0].forward == edge[1].forward;
 }
 
-/// Vertices around which faces do not hang together by edges, ascending.
-std::vector<int> nonmanifold_vertices(const FaceList& faces, const std::vector<FaceSide>& sides);
-
 /// How faces hang together.
 struct Topology {
   long vertices = 0;  ///< that faces use
   long edges = 0, faces = 0;
   long boundary_edges = 0, nonmanifold_edges = 0, inconsistent_edges = 0;
-  long nonmanifold_vertices = 0;
-  long components = 0;     ///< of faces that share vertices
+  std::vector<int> nonmanifold_vertices;  ///< around which faces do not hang together, ascending
+  long components = 0;                    ///< of faces that share vertices
   bool orientable = true;  ///< faces can be turned one way, across all edges of two faces
 
   bool closed() const { return boundary_edges == 0; }
-  bool manifold() const { return nonmanifold_edges == 0 && nonmanifold_vertices == 0; }
+  bool manifold() const { return nonmanifold_edges == 0 && nonmanifold_vertices.empty(); }
   bool watertight() const { return closed() && nonmanifold_edges == 0 && inconsistent_edges == 0; }
 
   long euler_characteristic() const { return vertices - edges + faces; }
 
-  /// Handles of all components together; where closed, manifold and orientable.
+  /// Handles of all components together; only of a surface that has a genus.
+  bool has_genus() const { return closed() && manifold() && orientable; }
   long genus() const { return components - euler_characteristic() / 2; }
 };
 Topology topology(const FaceList& faces, const std::vector<FaceSide>& sides);

@@ -12,7 +12,7 @@ namespace supple {
 namespace {
 
 constexpr Index most_asked = 20000;
-constexpr int chunk = 256, ring = 6;
+constexpr int chunk = 256, ring = 16;
 
 double median_of(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -46,7 +46,7 @@ PointSpacing measure_spacing(const Points& points) {
       const double reach = distance(near.size() - 1);
       nearest[static_cast<std::size_t>(k)] = distance(1);
       areas[static_cast<std::size_t>(k)] =
-          std::numbers::pi * reach * reach / static_cast<double>(near.size() - 1);
+          std::numbers::pi * reach * reach / std::max(1.0, static_cast<double>(near.size()) - 2);
     }
   });
   result.median = median_of(nearest);

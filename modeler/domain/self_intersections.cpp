@@ -121,7 +121,7 @@ class TrianglePair {
   Corners s_, t_;
 };
 
-/// Welded triangles with area, in a scale in which no product of coordinates underflows.
+/// Triangles with area, in a scale in which no product of coordinates underflows.
 struct Soup {
   Points positions;
   Triangles triangles;
@@ -129,14 +129,11 @@ struct Soup {
 };
 
 Soup make_soup(const Points& positions, const Triangles& triangles) {
-  const std::vector<int> firsts = first_at_position(positions);
   Soup soup;
   const double largest = positions.size() > 0 ? positions.cwiseAbs().maxCoeff() : 0;
   soup.positions = positions * (largest > 0 ? std::ldexp(1.0, -std::ilogb(largest)) : 1);
   soup.numbers = rows_with_area(positions, triangles);
-  soup.triangles.resize(static_cast<Index>(soup.numbers.size()), 3);
-  for (Index t = 0; t < soup.triangles.rows(); ++t)
-    for (int k = 0; k < 3; ++k) soup.triangles(t, k) = firsts[triangles(soup.numbers[t], k)];
+  soup.triangles = triangles(soup.numbers, Eigen::all);
   return soup;
 }
 

@@ -20,9 +20,9 @@ struct SelfIntersectionOptions {
   int most_pairs = 5;            ///< kept of those found
 };
 
-/// Exact tests (orientation.h) of all pairs whose boxes meet. Vertices at one position are shared;
-/// triangles with the same three are copies of each other, and none of them counts.
-/// Triangles without area are left out.
+/// Exact tests (orientation.h) of all pairs whose boxes meet. Vertices at one position must have
+/// one number, or triangles that share them count. Triangles with the same three vertices are
+/// copies of each other and do not count; those without area are left out.
 SelfIntersections self_intersections(const Points& positions, const Triangles& triangles,
                                      const SelfIntersectionOptions& options = {});
 

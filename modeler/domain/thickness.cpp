@@ -14,25 +14,24 @@ constexpr int chunk = 32, most_steps = 200;
 constexpr double nearby = 1e-6;    // of the diagonal: steps off the boundary
 constexpr double accuracy = 1e-3;  // of a thickness
 
-/// Half the change of the signed distance over two steps of `step` along each axis: on a smooth
-/// boundary the unit normal, between two insides or two outsides about nothing.
+/// The unit normal at x on the boundary, from differences of the signed distance over `step`; zero
+/// where it does not part inside from outside.
 Vec3 outward(const Region& region, const Vec3& x, double step) {
   Vec3 gradient;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3 along = step * Vec3::Unit(k);
-    gradient[k] =
-        (region.signed_distance(x + along) - region.signed_distance(x - along)) / (2 * step);
-  }
-  return gradient;
+  for (int k = 0; k < 3; ++k) gradient[k] = region.signed_distance(x + step * Vec3::Unit(k));
+  gradient.normalize();
+  const bool parts =
+      region.contains(x - step * gradient) && !region.contains(x + step * gradient);
+  return parts ? gradient : Vec3(Vec3::Zero());
 }
 
 /// The way from x, on the boundary, along the unit vector `inward` until it leaves the region, in
-/// steps as long as the distance to the boundary allows; 0 where it does not go inside at all.
+/// steps as long as the distance to the boundary allows.
 double way_through(const Region& region, const Vec3& x, const Vec3& inward, double first) {
   double way = first;
   for (int step = 0; step < most_steps; ++step) {
-    double depth = -region.signed_distance(x + way * inward);
-    if (depth <= 0) return step > 0 ? way : 0;
+    const Vec3 at = x + way * inward;
+    double depth = (region.closest_boundary_point(at) - at).norm();
     if (depth < accuracy * way) {  // a wall: the end, or one that stands inside
       depth += accuracy * way;
       if (!region.contains(x + (way + depth) * inward)) return way;
@@ -86,8 +85,8 @@ Thickness measure_thickness(const Region& region, const Points& places,
     for (Index i = begin; i < end; ++i) {
       const Vec3 x = region.closest_boundary_point(places.row(i).transpose());
       const Vec3 normal = outward(region, x, step);
-      if (normal.norm() > 0.5)
-        ways[static_cast<std::size_t>(i)] = way_through(region, x, -normal.normalized(), step);
+      if (!normal.isZero(0))
+        ways[static_cast<std::size_t>(i)] = way_through(region, x, -normal, step);
     }
   });
   std::vector<double> values, counted;

@@ -13,7 +13,7 @@
 namespace supple {
 namespace {
 
-constexpr double thickness_samples = 3000;
+constexpr double thickness_samples = 2000;
 constexpr double mark_width = 0.01;  // of the diagonal, between the samples of a selected part
 
 /// Runs the stages and books their time.
@@ -39,18 +39,19 @@ class Stages {
 SolidVerdict judge(const Mesh& mesh, const ShapeSpec& spec) {
   SolidVerdict verdict;
   try {
-    verdict.solid = std::make_unique<const Solid>(mesh, spec);
+    verdict.solid = std::make_unique<Solid>(mesh, spec);
   } catch (const ShapeError& error) {
     verdict.reason = error.what();
   }
   return verdict;
 }
 
-/// All of a solid's surface samples, thinned to about `count`.
+/// About `count` of a solid's surface samples, evenly over the surface.
 SurfaceSamples few_samples(const Solid& solid, double count) {
   const SurfaceSamples& all = solid.surface();
-  std::vector<int> numbers(static_cast<std::size_t>(all.size()));
-  std::iota(numbers.begin(), numbers.end(), 0);
+  const Index step = 1 + all.size() / static_cast<Index>(20 * count);
+  std::vector<int> numbers;
+  for (Index k = 0; k < all.size(); k += step) numbers.push_back(static_cast<int>(k));
   const ThinnedSamples thinned = thin_samples(all, numbers, std::sqrt(all.areas.sum() / count));
   return {all.positions(thinned.indices, Eigen::all), thinned.areas, {}, {}};
 }

@@ -19,8 +19,8 @@ namespace supple {
 
 /// Whether a shape can be posed, tried as a pose does it.
 struct SolidVerdict {
-  std::unique_ptr<const Solid> solid;  ///< null where it cannot
-  std::string reason;                  ///< why it cannot, and what would help
+  std::unique_ptr<Solid> solid;  ///< null where it cannot
+  std::string reason;            ///< why it cannot, and what would help
 
   bool poses() const { return solid != nullptr; }
 };
