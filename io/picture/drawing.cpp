@@ -118,9 +118,11 @@ void add_sheet(const Sheet& sheet, Drawing& drawing) {
     drawn.vertices.push_back({local_position(drawing, sheet.positions, i),
                               {},
                               to_bytes(sheet.colors[static_cast<std::size_t>(i)])});
-  for (Index t = 0; t < sheet.triangles.rows(); ++t)
+  for (Index t = 0; t < sheet.triangles.rows(); ++t) {
+    if (!sheet.positions(sheet.triangles.row(t), Eigen::all).allFinite()) continue;
     for (int k = 0; k < 3; ++k)
       drawn.indices.push_back(static_cast<std::uint32_t>(sheet.triangles(t, k)));
+  }
   drawing.sheets.push_back(std::move(drawn));
 }
 

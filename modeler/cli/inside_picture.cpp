@@ -128,10 +128,8 @@ struct LeafClass {
 };
 constexpr std::array<LeafClass, 3> leaf_classes{{
     {LeafKind::interior, "inside", {0.15f, 0.35f, 0.75f}},
-    {LeafKind::interior_boundary,
-     "at the boundary with their middle inside",
-     {0.10f, 0.60f, 0.25f}},
-    {LeafKind::exterior_boundary, "outside", {0.90f, 0.50f, 0.08f}},
+    {LeafKind::interior_boundary, "at the boundary (middle inside)", {0.10f, 0.60f, 0.25f}},
+    {LeafKind::exterior_boundary, "(middle outside)", {0.90f, 0.50f, 0.08f}},
 }};
 
 /// The octree's leaves whose middles lie beyond the plane through the region's middle.
@@ -153,7 +151,7 @@ void add_cells(const Solid& solid, const Camera& camera, PictureItem& item) {
     item.lines.push_back(std::move(lines));
     item.label += fmt::format(", {} {}", count, wanted.name);
   }
-  item.label += "; the nearer half is left out";
+  item.label += "; the nearer half not shown";
 }
 
 // ---- slice ----------------------------------------------------------------------------------

@@ -92,13 +92,12 @@ int exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
 
 int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 p = a - d, q = b - d, r = c - d;
-  double determinant = 0, magnitude = 0;
-  for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3, last = (k + 2) % 3;
-    const double plus = q[next] * r[last], minus = q[last] * r[next];
-    determinant += p[k] * (plus - minus);
-    magnitude += std::abs(p[k]) * (std::abs(plus) + std::abs(minus));
-  }
+  const double yz = q.y() * r.z(), zy = q.z() * r.y(), zx = q.z() * r.x(), xz = q.x() * r.z(),
+               xy = q.x() * r.y(), yx = q.y() * r.x();
+  const double determinant = p.x() * (yz - zy) + p.y() * (zx - xz) + p.z() * (xy - yx);
+  const double magnitude = std::abs(p.x()) * (std::abs(yz) + std::abs(zy)) +
+                           std::abs(p.y()) * (std::abs(zx) + std::abs(xz)) +
+                           std::abs(p.z()) * (std::abs(xy) + std::abs(yx));
   if (magnitude == 0 || std::abs(determinant) > bound_3d * magnitude) return sign_of(determinant);
   return exact_orientation(a, b, c, d);
 }

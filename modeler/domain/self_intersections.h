@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "solver/core/describe.h"
 #include "solver/core/types.h"
 
 namespace supple {
@@ -16,8 +17,16 @@ struct SelfIntersections {
 };
 
 struct SelfIntersectionOptions {
-  double most_candidates = 3e7;  ///< pairs of triangles whose boxes meet, beyond which it samples
-  int most_pairs = 5;            ///< kept of those found
+  double most_candidates = 3e7;
+  int most_pairs = 5;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("most_candidates", self.most_candidates,
+          {.doc = "pairs of triangles whose boxes meet, beyond which only a sample is tested",
+           .min = 1});
+    visit("most_pairs", self.most_pairs, {.doc = "kept of the pairs found", .min = 0});
+  }
 };
 
 /// Exact tests (orientation.h) of all pairs whose boxes meet. Vertices at one position must have

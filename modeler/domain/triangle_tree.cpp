@@ -61,7 +61,9 @@ bool touches(const Box& box, const Vec3& a, const Vec3& inverse) {
 }
 
 bool meet(const Box& a, const Box& b) {
-  return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
+  for (int k = 0; k < 3; ++k)
+    if (a.lower[k] > b.upper[k] || b.lower[k] > a.upper[k]) return false;
+  return true;
 }
 
 /// By the volumes of the tetrahedra that the segment spans with the triangle's edges.
