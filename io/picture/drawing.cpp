@@ -59,6 +59,8 @@ Box finite_bounds(const PictureItem& item) {
   };
   if (item.mesh != nullptr) extend(item.mesh->positions);
   for (const Markers& markers : item.markers) extend(markers.positions);
+  for (const Lines& lines : item.lines) extend(lines.ends);
+  for (const Sheet& sheet : item.sheets) extend(sheet.positions);
   return box;
 }
 
@@ -121,14 +123,53 @@ void add_cloud(const PictureItem& item, Drawing& drawing) {
   }
 }
 
+/// The i-th of `colors`, or what stands for all where there are none.
+Color color_of(const std::vector<Color>& colors, const Color& all, Index i) {
+  return colors.empty() ? all : colors[static_cast<std::size_t>(i)];
+}
+
 void add_markers(const Markers& markers, Drawing& drawing) {
   std::vector<DrawnVertex> balls;
   for (const Index i : finite_points(markers.positions))
     balls.push_back({local_position(drawing, markers.positions, i),
                      {},
-                     to_bytes(markers.color),
+                     to_bytes(color_of(markers.colors, markers.color, i)),
                      static_cast<float>(markers.radius / drawing.size)});
   drawing.markers.push_back(std::move(balls));
+}
+
+void add_lines(const Lines& lines, Drawing& drawing) {
+  DrawnLines drawn{{}, lines.width};
+  for (Index i = 0; i + 1 < lines.ends.rows(); i += 2) {
+    if (!finite_row(lines.ends, i) || !finite_row(lines.ends, i + 1)) continue;
+    const auto color = to_bytes(color_of(lines.colors, lines.color, i / 2));
+    for (const Index end : {i, i + 1})
+      drawn.ends.push_back({local_position(drawing, lines.ends, end), {}, color});
+  }
+  drawing.lines.push_back(std::move(drawn));
+}
+
+void add_sheet(const Sheet& sheet, Drawing& drawing) {
+  SUPPLE_CHECK(static_cast<Index>(sheet.colors.size()) == sheet.positions.rows(),
+               "one colour a vertex of a sheet");
+  DrawnSheet drawn;
+  for (Index i = 0; i < sheet.positions.rows(); ++i)
+    drawn.vertices.push_back({local_position(drawing, sheet.positions, i),
+                              {},
+                              to_bytes(sheet.colors[static_cast<std::size_t>(i)])});
+  for (Index t = 0; t < sheet.triangles.rows(); ++t) {
+    if (!sheet.positions(sheet.triangles.row(t), Eigen::all).allFinite()) continue;
+    for (int k = 0; k < 3; ++k)
+      drawn.indices.push_back(static_cast<std::uint32_t>(sheet.triangles(t, k)));
+  }
+  drawing.sheets.push_back(std::move(drawn));
+}
+
+/// The half-space in the drawing's coordinates.
+Eigen::Vector4f local_cut(const HalfSpace& cut, const Drawing& drawing) {
+  const Vec3 normal = cut.normal.normalized();
+  const double offset = (cut.offset - normal.dot(drawing.origin)) / drawing.size;
+  return Eigen::Vector4d(normal.x(), normal.y(), normal.z(), -offset).cast<float>();
 }
 
 }  // namespace
@@ -149,6 +190,10 @@ Drawing make_drawing(const PictureItem& item) {
       add_cloud(item, drawing);
   }
   for (const Markers& markers : item.markers) add_markers(markers, drawing);
+  for (const Lines& lines : item.lines) add_lines(lines, drawing);
+  for (const Sheet& sheet : item.sheets) add_sheet(sheet, drawing);
+  drawing.opacity = item.opacity;
+  if (item.cut) drawing.cut = local_cut(*item.cut, drawing);
   return drawing;
 }
 

@@ -16,6 +16,18 @@ struct DrawnVertex {
   float radius = 0;  ///< of a point, in the drawing's coordinates; 0: by the picture's scale
 };
 
+/// Lines of one width, two vertices each.
+struct DrawnLines {
+  std::vector<DrawnVertex> ends;
+  double width = 1;  ///< [px]
+};
+
+/// Triangles that no light changes.
+struct DrawnSheet {
+  std::vector<DrawnVertex> vertices;
+  std::vector<std::uint32_t> indices;  ///< three a triangle
+};
+
 /// An item ready for the graphics library: positions are (x − origin) / size, so that single
 /// precision serves every unit and every distance from the origin. Whatever touches a coordinate
 /// that is not finite is left out.
@@ -27,6 +39,10 @@ struct Drawing {
   std::vector<DrawnVertex> splats;     ///< points with normals, of a mesh without faces
   std::vector<DrawnVertex> balls;      ///< points without normals
   std::vector<std::vector<DrawnVertex>> markers;
+  double opacity = 1;                             ///< of the surface
+  Eigen::Vector4f cut = Eigen::Vector4f::Zero();  ///< x is left out where cut·(x, 1) > 0
+  std::vector<DrawnLines> lines;
+  std::vector<DrawnSheet> sheets;
 };
 
 /// [m]

@@ -47,6 +47,7 @@ struct Gl {
   decltype(&glDeleteShader) delete_shader = load("glDeleteShader");
   decltype(&glDeleteTextures) delete_textures = load("glDeleteTextures");
   decltype(&glDeleteVertexArrays) delete_vertex_arrays = load("glDeleteVertexArrays");
+  decltype(&glDepthFunc) depth_function = load("glDepthFunc");
   decltype(&glDepthMask) depth_mask = load("glDepthMask");
   decltype(&glDisable) disable = load("glDisable");
   decltype(&glDrawArrays) draw_arrays = load("glDrawArrays");
@@ -74,6 +75,7 @@ struct Gl {
   decltype(&glTexParameteri) texture_parameter = load("glTexParameteri");
   decltype(&glUniform1i) uniform_1i = load("glUniform1i");
   decltype(&glUniform1f) uniform_1f = load("glUniform1f");
+  decltype(&glUniform4fv) uniform_4fv = load("glUniform4fv");
   decltype(&glUniformMatrix3fv) uniform_matrix3 = load("glUniformMatrix3fv");
   decltype(&glUniformMatrix4fv) uniform_matrix4 = load("glUniformMatrix4fv");
   decltype(&glUseProgram) use_program = load("glUseProgram");

@@ -62,6 +62,9 @@ class GlProgram {
     gl_.uniform_1f(uniform(name), static_cast<GLfloat>(value));
   }
   void set(const char* name, int value) const { gl_.uniform_1i(uniform(name), value); }
+  void set(const char* name, const Eigen::Vector4f& vector) const {
+    gl_.uniform_4fv(uniform(name), 1, vector.data());
+  }
   void set(const char* name, const Eigen::Matrix4d& matrix) const {
     gl_.uniform_matrix4(uniform(name), 1, GL_FALSE, matrix.cast<float>().eval().data());
   }

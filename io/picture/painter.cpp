@@ -1,5 +1,6 @@
 #include "io/picture/painter.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
@@ -56,6 +57,31 @@ PointScale point_scale(const Drawing& drawing, const std::vector<DrawnVertex>& p
           .depth_per_px = 1 / (2 * pixels * view.depth)};
 }
 
+/// Lines as strips that face the viewer, a little in front of what they lie on: OpenGL itself need
+/// not draw lines wider than a pixel.
+DrawnSheet strips_of(const DrawnLines& lines, const Drawing& drawing, const View& view) {
+  const double half_width = 0.5 * lines.width / (view.pixels_per_meter * drawing.size);
+  const Vec3 towards = view.rotation.row(2);
+  DrawnSheet strips;
+  strips.vertices.reserve(2 * lines.ends.size());
+  for (std::size_t i = 0; i + 1 < lines.ends.size(); i += 2) {
+    const auto point = [&](std::size_t end) {
+      const auto& x = lines.ends[end].position;
+      return Vec3(x[0], x[1], x[2]);
+    };
+    const Vec3 across = towards.cross(point(i + 1) - point(i)).normalized();
+    const auto first = static_cast<std::uint32_t>(strips.vertices.size());
+    for (const std::size_t end : {i, i + 1})
+      for (const double side : {-half_width, half_width}) {
+        const Vec3 x = point(end) + side * across + half_width * towards;
+        strips.vertices.push_back(lines.ends[end]);
+        for (int k = 0; k < 3; ++k) strips.vertices.back().position[k] = static_cast<float>(x[k]);
+      }
+    for (const std::uint32_t corner : {0, 1, 2, 2, 1, 3}) strips.indices.push_back(first + corner);
+  }
+  return strips;
+}
+
 }  // namespace
 
 Painter::Painter(int width, int height)
@@ -66,6 +92,7 @@ Painter::Painter(int width, int height)
       surface_(gl_, {shaders::surface_vertex}, {shaders::lighting, shaders::surface_fragment}),
       ball_(gl_, {shaders::point_size, shaders::ball_vertex},
             {shaders::lighting, shaders::ball_fragment}),
+      flat_(gl_, {shaders::flat_vertex}, {shaders::flat_fragment}),
       ground_(gl_, {shaders::ground_vertex}, {shaders::ground_fragment}),
       canvas_(gl_, fineness * width, fineness * height) {
   gl_.enable(GL_PROGRAM_POINT_SIZE);
@@ -94,8 +121,9 @@ void Painter::draw_shape(const Drawing& drawing, const View& view, const Place& 
   const bool is_surface = !drawing.indices.empty() || !drawing.splats.empty();
   if (is_surface && place.ground_shadow && view.rotation.row(2).dot(view.up) > 0)
     draw_shadow(drawing, view);
-  if (!drawing.indices.empty()) draw_surface(drawing, view);
+  if (!drawing.indices.empty() && drawing.opacity >= 1) draw_surface(drawing, view);
   if (!drawing.splats.empty()) draw_splats(drawing, view, place.column);
+  for (const DrawnSheet& sheet : drawing.sheets) draw_flat(drawing, sheet, view);
   draw_balls(drawing, drawing.balls, view);
 }
 
@@ -104,11 +132,45 @@ void Painter::draw_markers(const Drawing& drawing, const View& view, int column)
   for (const std::vector<DrawnVertex>& balls : drawing.markers) draw_balls(drawing, balls, view);
 }
 
+void Painter::draw_lines(const Drawing& drawing, const View& view, int column) const {
+  use_column(view, column);
+  for (const DrawnLines& lines : drawing.lines)
+    draw_flat(drawing, strips_of(lines, drawing, view), view);
+}
+
+void Painter::draw_veil(const Drawing& drawing, const View& view, int column) const {
+  if (drawing.opacity >= 1 || drawing.indices.empty()) return;
+  use_column(view, column);
+  // The depth alone first, so that the colour of the nearest side only is laid over the rest.
+  gl_.color_mask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_surface(drawing, view);
+  gl_.color_mask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl_.depth_function(GL_EQUAL);
+  gl_.enable(GL_BLEND);
+  gl_.blend_function(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  draw_surface(drawing, view);
+  gl_.disable(GL_BLEND);
+  gl_.depth_function(GL_LESS);
+}
+
+void Painter::draw_flat(const Drawing& drawing, const DrawnSheet& sheet, const View& view) const {
+  if (sheet.indices.empty()) return;
+  const VertexArray array(gl_, sheet.vertices, sheet.indices);
+  flat_.use();
+  flat_.set("to_clip", clip_from(view, world_from_drawing(drawing)));
+  gl_.enable(GL_DEPTH_TEST);
+  gl_.draw_elements(GL_TRIANGLES, static_cast<GLsizei>(sheet.indices.size()), GL_UNSIGNED_INT,
+                    nullptr);
+  gl_.disable(GL_DEPTH_TEST);
+}
+
 void Painter::draw_surface(const Drawing& drawing, const View& view) const {
   const VertexArray array(gl_, drawing.vertices, drawing.indices);
   surface_.use();
   surface_.set("to_clip", clip_from(view, world_from_drawing(drawing)));
   surface_.set("to_view", view.rotation);
+  surface_.set("cut", drawing.cut);
+  surface_.set("opacity", drawing.opacity);
   gl_.enable(GL_DEPTH_TEST);
   gl_.draw_elements(GL_TRIANGLES, static_cast<GLsizei>(drawing.indices.size()), GL_UNSIGNED_INT,
                     nullptr);

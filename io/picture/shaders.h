@@ -49,9 +49,11 @@ uniform mat4 to_clip;
 uniform mat3 to_view;
 out vec3 seen_normal;
 out vec3 seen_color;
+out vec3 place;
 void main() {
   seen_normal = to_view * normal;
   seen_color = color.rgb;
+  place = position;
   gl_Position = to_clip * vec4(position, 1.0);
 }
 )";
@@ -60,8 +62,12 @@ void main() {
 inline constexpr std::string_view surface_fragment = R"(
 in vec3 seen_normal;
 in vec3 seen_color;
+in vec3 place;
+uniform vec4 cut;
+uniform float opacity;
 out vec4 pixel;
 void main() {
+  if (dot(cut, vec4(place, 1.0)) > 0.0) discard;
   float size = length(seen_normal);
   vec3 n = size > 1e-6 ? seen_normal / size : vec3(0.0, 0.0, 1.0);
   vec3 color = seen_color;
@@ -69,7 +75,7 @@ void main() {
     n = -n;
     color *= vec3(0.62, 0.64, 0.70);
   }
-  pixel = vec4(shade(n, color), 1.0);
+  pixel = vec4(shade(n, color), opacity);
 }
 )";
 
@@ -178,6 +184,24 @@ void main() {
   gl_FragDepth = color.a;
   pixel = vec4(shade(normalize(normal.xyz), color.rgb), 1.0);
 }
+)";
+
+/// Colours as they are: lines and sheets.
+inline constexpr std::string_view flat_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 2) in vec4 color;
+uniform mat4 to_clip;
+out vec3 seen_color;
+void main() {
+  seen_color = color.rgb;
+  gl_Position = to_clip * vec4(position, 1.0);
+}
+)";
+
+inline constexpr std::string_view flat_fragment = R"(#version 330 core
+in vec3 seen_color;
+out vec4 pixel;
+void main() { pixel = vec4(seen_color, 1.0); }
 )";
 
 inline constexpr std::string_view ground_vertex = R"(#version 330 core

@@ -11,22 +11,6 @@ namespace {
 constexpr double margin = 0.07;            // of a column's width and height, on every side
 constexpr double deepest_shadow_room = 2;  // depths drawn, over those that items take
 
-/// Rows right, up, towards the viewer. Without azimuth and elevation it looks along −z where y
-/// is up and along +y where z is up, with x to the right in both.
-Mat3 camera_rotation(const Camera& camera) {
-  const double a = camera.azimuth_deg * std::numbers::pi / 180;
-  const double e = camera.elevation_deg * std::numbers::pi / 180;
-  const Vec3 up = camera.up.normalized();
-  const Vec3 side = std::abs(up.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
-  const Vec3 front = side.cross(up).normalized();
-  const Vec3 right = up.cross(front);
-  Mat3 rotation;
-  rotation.row(0) = std::cos(a) * right - std::sin(a) * front;
-  rotation.row(2) = std::cos(e) * (std::cos(a) * front + std::sin(a) * right) + std::sin(e) * up;
-  rotation.row(1) = rotation.row(2).cross(rotation.row(0));
-  return rotation;
-}
-
 /// Boxes along the camera's axes and the least height of everything that is drawn.
 class Extent {
  public:
@@ -64,11 +48,27 @@ Extent measure(const std::vector<Drawing>& drawings, const Mat3& rotation, const
     extend(drawing.splats);
     extend(drawing.balls);
     for (const std::vector<DrawnVertex>& balls : drawing.markers) extend(balls);
+    for (const DrawnLines& lines : drawing.lines) extend(lines.ends);
+    for (const DrawnSheet& sheet : drawing.sheets) extend(sheet.vertices);
   }
   return extent;
 }
 
 }  // namespace
+
+Mat3 camera_rotation(const Camera& camera) {
+  const double a = camera.azimuth_deg * std::numbers::pi / 180;
+  const double e = camera.elevation_deg * std::numbers::pi / 180;
+  const Vec3 up = camera.up.normalized();
+  const Vec3 side = std::abs(up.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
+  const Vec3 front = side.cross(up).normalized();
+  const Vec3 right = up.cross(front);
+  Mat3 rotation;
+  rotation.row(0) = std::cos(a) * right - std::sin(a) * front;
+  rotation.row(2) = std::cos(e) * (std::cos(a) * front + std::sin(a) * right) + std::sin(e) * up;
+  rotation.row(1) = rotation.row(2).cross(rotation.row(0));
+  return rotation;
+}
 
 View fit_view(const std::vector<Drawing>& drawings, const PictureOptions& options,
               int label_height) {
@@ -92,6 +92,11 @@ View fit_view(const std::vector<Drawing>& drawings, const PictureOptions& option
                           std::min(view.column_width / wide, (view.height - label_height) / tall);
   view.depth = deepest_shadow_room * std::max(size.norm(), largest);
   return view;
+}
+
+Eigen::Vector2d pixel_of(const Vec3& x, const View& view) {
+  const Vec3 seen = view.pixels_per_meter * view.rotation * (x - view.center);
+  return {0.5 * view.column_width + seen.x(), 0.5 * (view.height - view.label_height) - seen.y()};
 }
 
 double suitable_radius_px(const Drawing& drawing, const std::vector<DrawnVertex>& points,

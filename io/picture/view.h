@@ -20,9 +20,16 @@ struct View {
   int label_height = 0;         ///< [px] of its lower edge, where the labels stand
 };
 
+/// Rows to the right, up, towards the viewer. Without azimuth and elevation the camera looks along
+/// −z where y is up and along +y where z is, with x to the right in both.
+Mat3 camera_rotation(const Camera& camera);
+
 /// Turns the camera as asked and chooses the scale that fits all drawings into their columns.
 View fit_view(const std::vector<Drawing>& drawings, const PictureOptions& options,
               int label_height);
+
+/// Where x [m] is drawn in its column, from the left and from the top [px].
+Eigen::Vector2d pixel_of(const Vec3& x, const View& view);
 
 /// A radius in pixels for points that have none of their own: one that suits their number and
 /// spread.
