@@ -59,7 +59,8 @@ struct SolidField {
   SurfaceEmbedding surface;
 
   SolidField(const Solid& solid, const ShapeSpec& shape, SurfaceKind surface_kind)
-      : mls(solid.particles().positions, solid.particles().supports, {shape.basis, shape.kernel}),
+      : mls(solid.particles().positions, solid.particles().supports,
+            {shape.basis, shape.kernel, shape.gradient}, nullptr, solid.particles().stretches),
         points(solid.quadrature(shape.quadrature)),
         quadrature(sample_field(mls, points.points, SampleContent::values_and_gradients)),
         surface(mls, quadrature, solid.vertices(), surface_kind) {}
@@ -210,7 +211,7 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   const HandleSamples handles = choose_handles(result.rest, solid, scene);
   double thin_share = 0;
   const std::unique_ptr<const SolidField> field = stages.run("field", [&] {
-    thin_share = solid.choose_particle_supports(scene.shape.kernel);
+    thin_share = solid.choose_particle_supports(scene.shape);
     return std::make_unique<const SolidField>(solid, scene.shape, spec.surface);
   });
 

@@ -18,6 +18,7 @@ struct BlockedField::Chunk {
   std::vector<int> block_sizes;
   std::vector<int> particles;
   std::vector<float> weights, slopes;
+  std::vector<Samples::ShortSpan> short_spans;
   Index entries = 0;
   long uncovered = 0, rank_lost = 0;
 };
@@ -57,7 +58,11 @@ BlockedField::Chunk BlockedField::build_chunk(const MovingLeastSquares<3>& field
     Points block_points(count, 3);
     for (Index lane = 0; lane < count; ++lane)
       block_points.row(lane) = points.row(order_[static_cast<std::size_t>(first_lane + lane)]);
-    add_block(sample_field(field, block_points, SampleContent::values_and_gradients), chunk);
+    const Samples rows = sample_field(field, block_points, SampleContent::values_and_gradients);
+    add_block(rows, chunk);
+    for (const Samples::ShortSpan& at : rows.short_spans)
+      chunk.short_spans.push_back(
+          {order_[static_cast<std::size_t>(first_lane + at.sample)], at.span});
   }
   return chunk;
 }
@@ -93,6 +98,7 @@ void BlockedField::append(const Chunk& chunk) {
   particles_.insert(particles_.end(), chunk.particles.begin(), chunk.particles.end());
   weights_.insert(weights_.end(), chunk.weights.begin(), chunk.weights.end());
   slopes_.insert(slopes_.end(), chunk.slopes.begin(), chunk.slopes.end());
+  short_spans_.insert(short_spans_.end(), chunk.short_spans.begin(), chunk.short_spans.end());
   entries_ += chunk.entries;
   uncovered_ += chunk.uncovered;
   rank_lost_ += chunk.rank_lost;
@@ -184,6 +190,10 @@ void BlockedField::displace_gradients(const RigidMotion& rigid, const ParticleVa
     }
     store_gradients(block, rigid, sum, out);
   });
+  for (const Samples::ShortSpan& at : short_spans_) {
+    Mat3& F = out[static_cast<std::size_t>(at.sample)];
+    F = Completion(F - rigid.R * at.span.missing(), at.span).F();
+  }
 }
 
 void BlockedField::blend_gradients(const RigidMotion& rigid, const ParticleValues<12>& maps,

@@ -34,7 +34,8 @@ class SUPPLE_API BlockedField {
   /// R x + t + Σ φ_j (b_j + B_j x) [m], n×3, with maps {b, B} a particle.
   void blend(const RigidMotion& rigid, const ParticleValues<12>& maps, Points& out) const;
 
-  /// R + Σ d_j ∇φ_jᵀ: the deformation gradient of displace(), a 3×3 matrix a point, row by row.
+  /// R + Σ d_j ∇φ_jᵀ: the deformation gradient of displace(), a 3×3 matrix a point, row by row;
+  /// completed by a rotation where the particles do not span space.
   void displace_gradients(const RigidMotion& rigid, const ParticleValues<3>& d,
                           std::vector<Mat3>& out) const;
 
@@ -73,8 +74,9 @@ class SUPPLE_API BlockedField {
   std::vector<Vec3> rest_;            ///< the lanes' points at rest
   std::vector<int> block_starts_{0};  ///< blocks+1 offsets into particles_
   std::vector<int> particles_;
-  std::vector<float> weights_;  ///< [entry][lane] φ
-  std::vector<float> slopes_;   ///< [entry][axis][lane] ∇φ
+  std::vector<float> weights_;                   ///< [entry][lane] φ
+  std::vector<float> slopes_;                    ///< [entry][axis][lane] ∇φ
+  std::vector<Samples::ShortSpan> short_spans_;  ///< of points whose particles do not span space
 };
 
 }  // namespace supple
