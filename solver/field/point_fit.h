@@ -56,11 +56,7 @@ class PointFit {
     add_linear(phi);
     int rank = 1 + span_.rank();
     if (order_ == BasisOrder::quadratic) rank += add_quadratic(phi);
-    if (anchored()) {
-      phi[anchor_] = J(1.0);
-      for (std::size_t j = 0; j < phi.size(); ++j)
-        if (j != anchor_) phi[anchor_] -= phi[j];
-    }
+    restore_unity(phi);
     return rank;
   }
 
@@ -87,6 +83,18 @@ class PointFit {
  private:
   static constexpr std::size_t no_anchor = static_cast<std::size_t>(-1);
   bool anchored() const { return anchor_ != no_anchor; }
+
+  /// Makes Σ φ_j = 1 to rounding: over small eigenvalues the blocks' own sums, zero by design, are
+  /// not so to more than 1e-16/λ. The anchor takes what the others leave: its block is not its own.
+  void restore_unity(std::vector<J>& phi) const {
+    if (anchored()) phi[anchor_] = J();
+    J rest(1.0);
+    for (const J& p : phi) rest -= p;
+    if (anchored())
+      phi[anchor_] = rest;
+    else
+      for (std::size_t j = 0; j < phi.size(); ++j) phi[j] += weights_[j] * rest;
+  }
 
   /// Weights of the singular kernel, k_j/t_j with t = q². Times the least one, τ = t_a of the
   /// particle a nearest to x, they are τ c_j with c_j = k_j/t_j, and k_a: finite and smooth at

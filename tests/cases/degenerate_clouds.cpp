@@ -43,13 +43,13 @@ Eigen::RowVector3d linear_moment(const ShapeAtPoint& shape, const Field& field, 
   return shape.rows.col(0).transpose() * (field.positions().rowwise() - x.transpose());
 }
 
-/// Two bars, one small and 5 supports away, handles on the other: what the report says of it.
+/// A bar with handles and a piece without, more than 5 supports away: notes of the report on it.
 double loose_piece_notes() {
   Mesh bars = case_bar();
-  const Mesh crumb = make_bar({0.5, 0.5, 0.5}, {2, 2, 2});
+  const Mesh crumb = make_bar({1, 1, 2}, {4, 4, 8});
   const int first = static_cast<int>(bars.positions.rows());
   bars.positions =
-      together(bars.positions, crumb.positions.rowwise() + Eigen::RowVector3d(8, 0, 0));
+      together(bars.positions, crumb.positions.rowwise() + Eigen::RowVector3d(8, 0, 1));
   for (const int vertex : crumb.face_vertices) bars.face_vertices.push_back(first + vertex);
   const auto end = bars.face_starts.back();
   for (std::size_t f = 1; f < crumb.face_starts.size(); ++f)
@@ -222,7 +222,7 @@ void measure_thin_slab(Figures& figures) {
   constexpr double s = 0.125, thickness = 1e-6 * s;
   Points slab = lattice_particles({1, 1, 2 * s}, s).positions;
   slab.col(2) = thickness * random_points(slab.rows(), 1, 6).col(0);
-  Points points = random_points(100, 3, 2);
+  const Points points = 0.1 + 0.8 * random_points(100, 3, 2).array();
   for (const BasisOrder order : all_of<BasisOrder>())
     for (const KernelKind kernel : all_of<KernelKind>()) {
       const Field field = Cloud{slab, 2.5 * s}.field({order, kernel});
