@@ -31,6 +31,8 @@ struct ShapeSpec {
   std::optional<Length> size;  ///< scales to this bounding-box diagonal, centred
   BasisOrder basis = BasisOrder::linear;
   KernelKind kernel = KernelKind::polynomial;
+  GradientKind gradient = GradientKind::full;
+  SupportKind supports = SupportKind::round;
   QuadratureKind quadrature = QuadratureKind::automatic;
   CouplingKind coupling = CouplingKind::inside;
 
@@ -58,6 +60,10 @@ struct ShapeSpec {
            .exclusive_min = true});
     visit("basis", self.basis, {.doc = "polynomials that the field reproduces exactly"});
     visit("kernel", self.kernel, {.doc = "weight function of the moving least squares"});
+    visit("gradient", self.gradient,
+          {.doc = "deformation gradients: derivatives of the field, or slopes of a linear fit"});
+    visit("supports", self.supports,
+          {.doc = "shape of the particles' supports; stretched ones follow thin parts"});
     visit("quadrature", self.quadrature,
           {.doc = "where energies are sampled (cells: not available yet)"});
     visit("coupling", self.coupling,

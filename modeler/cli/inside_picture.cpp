@@ -83,7 +83,7 @@ std::vector<Index> spread_particles(const Particles& particles, int count) {
 }
 
 void add_supports(Solid& solid, const ShapeSpec& spec, const Camera& camera, PictureItem& item) {
-  solid.choose_particle_supports(spec.kernel);
+  solid.choose_particle_supports(spec);
   const Particles& particles = solid.particles();
   const double least = particles.supports.minCoeff(), most = particles.supports.maxCoeff();
   const auto color = [&](Index i) {

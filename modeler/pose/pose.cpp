@@ -60,8 +60,9 @@ struct SolidField {
   SurfaceEmbedding surface;
 
   SolidField(const Solid& solid, const ShapeSpec& shape, SurfaceKind surface_kind)
-      : mls(solid.particles().positions, solid.particles().supports, {shape.basis, shape.kernel},
-            solid.detours()),
+      : mls(solid.particles().positions, solid.particles().supports,
+            {shape.basis, shape.kernel, shape.gradient}, solid.detours(),
+            solid.particles().stretches),
         points(solid.quadrature(shape.quadrature)),
         quadrature(sample_field(mls, points.points, SampleContent::values_and_gradients)),
         surface(mls, quadrature, solid.inner_vertices(), surface_kind) {}
@@ -280,7 +281,7 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   const HandleSamples handles = choose_handles(result.rest, solid, scene);
   double thin_share = 0;
   const std::unique_ptr<const SolidField> field = stages.run("field", [&] {
-    thin_share = solid.choose_particle_supports(scene.shape.kernel);
+    thin_share = solid.choose_particle_supports(scene.shape);
     return std::make_unique<const SolidField>(solid, scene.shape, spec.surface);
   });
 

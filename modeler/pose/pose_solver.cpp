@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numeric>
 
 #include <fmt/format.h>
 
-#include "modeler/domain/disjoint_sets.h"
 #include "solver/core/rigid_motion.h"
+#include "solver/field/pieces.h"
 
 namespace supple {
 namespace {
@@ -21,19 +20,11 @@ constexpr double smallest_step = 1.0 / 8;
 /// Energies below this are rounding.
 constexpr double no_energy = 1e-9;
 
-/// Particles that samples tie to any that the handles reach.
 std::vector<bool> particles_held(const Samples& quadrature, const Samples& handles,
                                  Index particles) {
-  DisjointSets pieces(static_cast<std::size_t>(particles));
-  for (Index k = 0; k < quadrature.size(); ++k)
-    for (int at = quadrature.row_begin(k); at < quadrature.row_end(k); ++at)
-      pieces.unite(quadrature.particles[static_cast<std::size_t>(at)],
-                   quadrature.particles[static_cast<std::size_t>(quadrature.row_begin(k))]);
-  std::vector<bool> roots(static_cast<std::size_t>(particles), false), held(roots.size());
-  for (const int i : handles.particles) roots[static_cast<std::size_t>(pieces.root(i))] = true;
-  for (std::size_t i = 0; i < held.size(); ++i)
-    held[i] = roots[static_cast<std::size_t>(pieces.root(static_cast<int>(i)))];
-  return held;
+  Pieces pieces(particles);
+  pieces.tie(quadrature);
+  return pieces.reached_by(handles);
 }
 
 double total_energy(const Report& report) {

@@ -152,7 +152,7 @@ Points Solid::spread_over_surface(double width) const {
   return points;
 }
 
-double Solid::choose_particle_supports(KernelKind kernel) {
+double Solid::choose_particle_supports(const ShapeSpec& spec) {
   const Points spread = spread_over_surface(sample_width_over_spacing * particles_.spacing);
   const long used = std::count(used_.begin(), used_.end(), true);
   Points cover(particles_.size() + used + spread.rows(), 3);
@@ -162,9 +162,10 @@ double Solid::choose_particle_supports(KernelKind kernel) {
   for (std::size_t i = 0; i < used_.size(); ++i)
     if (used_[i]) cover.row(row++) = inner_vertices_.row(static_cast<Index>(i));
 
-  Supports supports = choose_supports(particles_.positions, particles_.spacing, cover, kernel, {},
-                                      detours_within_supports());
+  Supports supports = choose_supports(particles_.positions, particles_.spacing, cover, spec.kernel,
+                                      {.kind = spec.supports}, detours_within_supports());
   particles_.supports = std::move(supports.radii);
+  particles_.stretches = std::move(supports.stretches);
   detours_ = std::move(supports.detours);
   return static_cast<double>(supports.thin) / static_cast<double>(cover.rows());
 }

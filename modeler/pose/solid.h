@@ -59,7 +59,7 @@ class Solid {
 
   /// Fixes the particles' supports so that they reach everything that is to be covered.
   /// Returns the share of covered points whose particles lie near a plane or a line.
-  double choose_particle_supports(KernelKind kernel);
+  double choose_particle_supports(const ShapeSpec& spec);
 
   /// QuadratureKind::particles: at the particles. Automatic: also at points spread over the
   /// surface, which take a part of the volume of the particle nearest to them. Particles alone

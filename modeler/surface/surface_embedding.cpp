@@ -9,7 +9,7 @@ namespace {
 MovingLeastSquares<3> weighting_field(const MovingLeastSquares<3>& field, SurfaceKind kind) {
   MovingLeastSquaresOptions options = field.options();
   if (kind == SurfaceKind::particle_gradients) options.order = BasisOrder::constant;
-  return {field.positions(), field.supports(), options, field.detours()};
+  return field.with(options);
 }
 
 /// The rigid part of the particles' motion. A field of order zero does not reproduce turns, so

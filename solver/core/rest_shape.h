@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "solver/core/types.h"
 
 namespace supple {
@@ -29,10 +31,11 @@ class Region {
 
 /// The particles that carry a field, at rest. V_i is a partition of the region's volume.
 struct Particles {
-  Points positions;          ///< [m], n×3
-  Eigen::VectorXd volumes;   ///< [m³], n; their sum is the region's volume
-  Eigen::VectorXd supports;  ///< support radii h_i [m], n
-  double spacing = 0;        ///< mean distance of neighbours s [m]
+  Points positions;             ///< [m], n×3
+  Eigen::VectorXd volumes;      ///< [m³], n; their sum is the region's volume
+  Eigen::VectorXd supports;     ///< support radii h_i [m], n
+  std::vector<Mat3> stretches;  ///< of the supports, as MovingLeastSquares takes them; may be none
+  double spacing = 0;           ///< mean distance of neighbours s [m]
 
   Index size() const { return positions.rows(); }
 };

@@ -5,16 +5,6 @@
 namespace supple {
 namespace {
 
-LocalField field_at(const EnergyGroup& group, Index k, const Points& u) {
-  LocalField at;
-  at.sample = k;
-  if (group.argument == Energy::Argument::position)
-    at.f = group.samples->position(k, u);
-  else
-    at.F = group.samples->deformation_gradient(k, u);
-  return at;
-}
-
 /// ∂/∂u_j of a function with derivative `by_F` at sample k: by_F·∇φ_j.
 void scatter_gradient(const Samples& samples, Index k, const Mat3& by_F, Points& gradient) {
   for (int at = samples.row_begin(k); at < samples.row_end(k); ++at)
@@ -33,7 +23,16 @@ double evaluate_group(const EnergyGroup& group, const Points& u, Points* gradien
   double value = 0;
   LocalResidual local;
   for (Index k = 0; k < group.samples->size(); ++k) {
-    const LocalField at = field_at(group, k, u);
+    LocalField at;
+    at.sample = k;
+    std::optional<Completion> completion;
+    if (group.argument == Energy::Argument::position) {
+      at.f = group.samples->position(k, u);
+    } else {
+      at.F = group.samples->plain_gradient(k, u);
+      completion = group.samples->completion(k, at.F);
+      if (completion) at.F = completion->F();
+    }
     Eigen::Matrix<double, 9, 1> derivative = Eigen::Matrix<double, 9, 1>::Zero();
     for (const EnergyGroup::Term& term : group.terms) {
       term.energy->evaluate(at, local);
@@ -45,13 +44,14 @@ double evaluate_group(const EnergyGroup& group, const Points& u, Points* gradien
       }
     }
     if (!gradient) continue;
-    if (group.argument == Energy::Argument::position)
+    if (group.argument == Energy::Argument::position) {
       scatter_position(*group.samples, k, derivative.head<3>(), *gradient);
-    else
-      scatter_gradient(
-          *group.samples, k,
-          Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(derivative.data()),
-          *gradient);
+    } else {
+      const Mat3 by_F =
+          Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(derivative.data());
+      scatter_gradient(*group.samples, k, completion ? completion->by_carried(by_F) : by_F,
+                       *gradient);
+    }
   }
   return value;
 }

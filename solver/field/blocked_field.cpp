@@ -40,7 +40,11 @@ BlockedField::Chunk BlockedField::build_chunk(const MovingLeastSquares<3>& field
     Points block_points(count, 3);
     for (Index lane = 0; lane < count; ++lane)
       block_points.row(lane) = points.row(order_[static_cast<std::size_t>(first_lane + lane)]);
-    add_block(sample_field(field, block_points, SampleContent::values_and_gradients), chunk);
+    const Samples rows = sample_field(field, block_points, SampleContent::values_and_gradients);
+    add_block(rows, chunk);
+    for (const Samples::ShortSpan& at : rows.short_spans)
+      chunk.short_spans.push_back(
+          {order_[static_cast<std::size_t>(first_lane + at.sample)], at.span});
   }
   chunk.particles.shrink_to_fit();
   chunk.weights.shrink_to_fit();
@@ -152,6 +156,11 @@ void BlockedField::displace_gradients(const RigidMotion& rigid, const ParticleVa
     }
   };
   sum_gradients(rigid, add, out);
+  for (const Chunk& chunk : chunks_)
+    for (const Samples::ShortSpan& at : chunk.short_spans) {
+      Mat3& F = out[static_cast<std::size_t>(at.sample)];
+      F = Completion(F - rigid.R * at.span.missing(), at.span).F();
+    }
 }
 
 void BlockedField::blend_gradients(const RigidMotion& rigid, const ParticleValues<12>& maps,

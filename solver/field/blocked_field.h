@@ -34,7 +34,8 @@ class SUPPLE_API BlockedField {
   /// R x + t + Σ φ_j (b_j + B_j x) [m], n×3, with maps {b, B} a particle.
   void blend(const RigidMotion& rigid, const ParticleValues<12>& maps, Points& out) const;
 
-  /// R + Σ d_j ∇φ_jᵀ: the deformation gradient of displace(), a 3×3 matrix a point, row by row.
+  /// R + Σ d_j ∇φ_jᵀ: the deformation gradient of displace(), a 3×3 matrix a point, row by row;
+  /// completed by a rotation where the particles do not span space.
   void displace_gradients(const RigidMotion& rigid, const ParticleValues<3>& d,
                           std::vector<Mat3>& out) const;
 
@@ -58,8 +59,9 @@ class SUPPLE_API BlockedField {
     Index first_block = 0;
     std::vector<int> block_starts{0};  ///< blocks+1 offsets into particles
     std::vector<int> particles;
-    std::vector<float> weights;  ///< [entry][lane] φ
-    std::vector<float> slopes;   ///< [entry][axis][lane] ∇φ
+    std::vector<float> weights;                   ///< [entry][lane] φ
+    std::vector<float> slopes;                    ///< [entry][axis][lane] ∇φ
+    std::vector<Samples::ShortSpan> short_spans;  ///< of points whose particles do not span space
     Index entries = 0;
     long uncovered = 0, rank_lost = 0;
   };

@@ -1,105 +1,131 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "solver/field/jet.h"
+#include "solver/field/symmetric_eigen.h"
 
 namespace supple {
 
-/// Eigenvalues of a dimensionless moment block below the first count as lost rank, above the
-/// second as sound; between them their inverse fades out with continuous second derivatives.
-inline constexpr double lost_rank = 1e-7;
-inline constexpr double sound_rank = 1e-5;
+/// Eigenvalues of a dimensionless moment block up to `lost` count for nothing, from `sound` on in
+/// full; between them the share s rises by a quintic step, with continuous second derivatives.
+struct RankWindow {
+  double lost, sound;
+};
 
-/// s(λ)/λ with its first two derivatives, s the quintic step from lost_rank to sound_rank.
+/// In eigenvalues, which are squares: singular values 3e-4 … 3e-3. Shapes of thin parts go down to
+/// 1.5e-5 at their tips (a hand of 60 particles), and there affine fields must stay exact.
+inline constexpr RankWindow linear_window{1e-7, 1e-5};
+
+/// Inside a body 1.5e-2 and more; below, shape functions reach out with Σ|φ| in the hundreds.
+inline constexpr RankWindow quadratic_window{1e-4, 1e-2};
+
+/// The share s(λ), and s(λ)/λ with its first two derivatives.
 struct FilteredReciprocal {
-  double value = 0, first = 0, second = 0;
+  double share = 0, value = 0, first = 0, second = 0;
 
-  explicit FilteredReciprocal(double lambda) {
-    if (lambda <= lost_rank) return;
-    double s = 1, s1 = 0, s2 = 0;
-    if (lambda < sound_rank) {
-      const double width = sound_rank - lost_rank;
-      const double t = (lambda - lost_rank) / width;
-      s = t * t * t * (10 + t * (-15 + 6 * t));
-      s1 = 30 * t * t * (1 - t) * (1 - t) / width;
-      s2 = 60 * t * (1 - t) * (1 - 2 * t) / (width * width);
+  FilteredReciprocal(const RankWindow& window, double lambda) {
+    if (lambda <= window.lost) return;
+    double slope = 0, curvature = 0;
+    share = 1;
+    if (lambda < window.sound) {
+      const double width = window.sound - window.lost;
+      const double t = (lambda - window.lost) / width;
+      share = t * t * t * (10 + t * (-15 + 6 * t));
+      slope = 30 * t * t * (1 - t) * (1 - t) / width;
+      curvature = 60 * t * (1 - t) * (1 - 2 * t) / (width * width);
     }
     const double r = 1 / lambda;
-    value = s * r;
-    first = (s1 - s * r) * r;
-    second = (s2 - 2 * s1 * r + 2 * s * r * r) * r;
+    value = share * r;
+    first = (slope - share * r) * r;
+    second = (curvature - 2 * slope * r + 2 * share * r * r) * r;
   }
 };
 
-/// Divided difference f[a, b]; the derivative where a and b agree.
-inline double divided_difference(double a, double b) {
-  if (a >= sound_rank && b >= sound_rank) return -1 / (a * b);
-  if (a <= lost_rank && b <= lost_rank) return 0;
-  if (std::abs(a - b) <= 1e-5 * std::max(a, b)) return FilteredReciprocal(0.5 * (a + b)).first;
-  return (FilteredReciprocal(a).value - FilteredReciprocal(b).value) / (a - b);
+/// Divided difference f[a, b] of s(λ)/λ; the derivative where a and b agree.
+inline double divided_difference(const RankWindow& window, double a, double b) {
+  if (a >= window.sound && b >= window.sound) return -1 / (a * b);
+  if (a <= window.lost && b <= window.lost) return 0;
+  if (std::abs(a - b) <= 1e-5 * std::max(a, b))
+    return FilteredReciprocal(window, 0.5 * (a + b)).first;
+  return (FilteredReciprocal(window, a).value - FilteredReciprocal(window, b).value) / (a - b);
 }
 
 /// Divided difference f[a, b, c]; half the second derivative where all agree.
-inline double divided_difference(double a, double b, double c) {
-  if (a >= sound_rank && b >= sound_rank && c >= sound_rank) return 1 / (a * b * c);
+inline double divided_difference(const RankWindow& window, double a, double b, double c) {
+  if (a >= window.sound && b >= window.sound && c >= window.sound) return 1 / (a * b * c);
   std::array<double, 3> x{a, b, c};
   std::sort(x.begin(), x.end());
-  if (x[2] - x[0] <= 1e-4 * x[2]) return 0.5 * FilteredReciprocal((a + b + c) / 3).second;
-  return (divided_difference(x[0], x[1]) - divided_difference(x[1], x[2])) / (x[0] - x[2]);
+  if (x[2] - x[0] <= 1e-4 * x[2]) return 0.5 * FilteredReciprocal(window, (a + b + c) / 3).second;
+  return (divided_difference(window, x[0], x[1]) - divided_difference(window, x[1], x[2])) /
+         (x[0] - x[2]);
 }
 
 /// A symmetric matrix of jets, taken apart into plain matrices.
 template <int N, int Dim, int Order>
 using JetMatrix = std::array<Eigen::Matrix<double, N, N>, Jet<Dim, Order>::size>;
 
+/// A block's directions, narrowest first, and the share of each that is kept.
+template <int N>
+struct BlockSpan {
+  Eigen::Matrix<double, N, N> axes = Eigen::Matrix<double, N, N>::Identity();
+  Eigen::Matrix<double, N, 1> shares = Eigen::Matrix<double, N, 1>::Ones();
+
+  /// How many directions are kept by half at least.
+  int rank() const { return static_cast<int>((shares.array() >= 0.5).count()); }
+};
+
 /// G = s(S)/S for a symmetric positive semi-definite S that depends on x, with the derivatives
 /// of G by x (Daleckii & Krein: in S's eigenvectors they are divided differences times dS).
-/// Returns the number of eigenvalues that are not lost.
 template <int N, int Dim, int Order>
-int filtered_inverse(const JetMatrix<N, Dim, Order>& S, JetMatrix<N, Dim, Order>& G) {
+BlockSpan<N> filtered_inverse(const RankWindow& window, const JetMatrix<N, Dim, Order>& S,
+                              JetMatrix<N, Dim, Order>& G) {
   using Matrix = Eigen::Matrix<double, N, N>;
   using Layout = Jet<Dim, Order>;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(S[0]);
-  const auto& V = eigen.eigenvectors();
-  // Rounding may leave zeros a little negative, and two of them equal.
-  const Eigen::Matrix<double, N, 1> lambda = eigen.eigenvalues().cwiseMax(0.0);
+  BlockSpan<N> span;
+  Eigen::Matrix<double, N, 1> lambda;
+  symmetric_eigen<N>(S[0], span.axes, lambda);
+  const Matrix& V = span.axes;
 
-  int rank = 0;
-  Eigen::Matrix<double, N, 1> f;
+  Matrix inner = Matrix::Zero();
   for (int i = 0; i < N; ++i) {
-    f[i] = FilteredReciprocal(lambda[i]).value;
-    if (lambda[i] > lost_rank) ++rank;
+    // Rounding may leave zeros a little negative, and two of them equal.
+    lambda[i] = std::max(lambda[i], 0.0);
+    const FilteredReciprocal filtered(window, lambda[i]);
+    inner(i, i) = filtered.value;
+    span.shares[i] = filtered.share;
   }
-  G[0] = V * f.asDiagonal() * V.transpose();
+  congruent<N>(V, inner, G[0]);
   if constexpr (Order >= 1) {
-    std::array<Matrix, Dim> rotated;
+    std::array<Matrix, Dim> slopes;
     Matrix first;
     for (int i = 0; i < N; ++i)
-      for (int j = 0; j < N; ++j) first(i, j) = divided_difference(lambda[i], lambda[j]);
+      for (int j = 0; j < N; ++j) first(i, j) = divided_difference(window, lambda[i], lambda[j]);
     for (int k = 0; k < Dim; ++k) {
-      rotated[k] = V.transpose() * S[1 + k] * V;
-      G[1 + k] = V * first.cwiseProduct(rotated[k]) * V.transpose();
+      rotated<N>(V, S[1 + k], slopes[k]);
+      inner = first.cwiseProduct(slopes[k]);
+      congruent<N>(V, inner, G[1 + k]);
     }
     if constexpr (Order >= 2) {
       for (int k = 0; k < Dim; ++k)
         for (int l = k; l < Dim; ++l) {
           const int place = 1 + Dim + Layout::pair(k, l);
-          Matrix sum = first.cwiseProduct(V.transpose() * S[place] * V);
+          Matrix curvature;
+          rotated<N>(V, S[place], curvature);
+          inner = first.cwiseProduct(curvature);
           for (int i = 0; i < N; ++i)
             for (int j = 0; j < N; ++j)
               for (int m = 0; m < N; ++m)
-                sum(i, j) +=
-                    divided_difference(lambda[i], lambda[m], lambda[j]) *
-                    (rotated[k](i, m) * rotated[l](m, j) + rotated[l](i, m) * rotated[k](m, j));
-          G[place] = V * sum * V.transpose();
+                inner(i, j) +=
+                    divided_difference(window, lambda[i], lambda[m], lambda[j]) *
+                    (slopes[k](i, m) * slopes[l](m, j) + slopes[l](i, m) * slopes[k](m, j));
+          congruent<N>(V, inner, G[place]);
         }
     }
   }
-  return rank;
+  return span;
 }
 
 }  // namespace supple

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "solver/core/export.h"
 #include "solver/core/types.h"
 #include "solver/field/moving_least_squares.h"
+#include "solver/field/span.h"
 
 namespace supple {
 
@@ -13,12 +15,23 @@ namespace supple {
 /// reach each point. With them f(x) = x + Σ φ_j u_j and F = I + Σ u_j ∇φ_jᵀ.
 ///
 /// A point outside all supports takes the affine map of the particle nearest to it.
+///
+/// Where particles do not span space, the gradients are those of the linear fit, passing smoothly
+/// into ∇φ_j where they do: they carry exactly the part P of an affine map (`short_spans`), and F
+/// is completed by a rotation.
 struct SUPPLE_API Samples {
   Points points;                   ///< x_k [m], n×3
   std::vector<int> row_starts{0};  ///< n+1 offsets into the arrays below
   std::vector<int> particles;
   std::vector<double> values;   ///< φ_j
   std::vector<Vec3> gradients;  ///< ∇φ_j [1/m]; empty where only values were asked for
+
+  struct ShortSpan {
+    Index sample;
+    Span span;
+  };
+  std::vector<ShortSpan> short_spans;  ///< of the few samples whose particles do not span space,
+                                       ///< ascending; none where only values were asked for
 
   long uncovered = 0;  ///< points outside all supports
   long rank_lost = 0;  ///< points whose particles do not span the basis
@@ -33,8 +46,12 @@ struct SUPPLE_API Samples {
   Vec3 position(Index k, const Points& u) const {
     return points.row(k).transpose() + displacement(k, u);
   }
-  /// F(x_k) = I + ∇u(x_k).
+  /// F(x_k) = I + ∇u(x_k), completed where the span is short.
   Mat3 deformation_gradient(Index k, const Points& u) const;
+  /// I + Σ u_j ∇φ_jᵀ, not completed.
+  Mat3 plain_gradient(Index k, const Points& u) const;
+  /// How a plain gradient at sample k is completed; nothing where the span is full.
+  std::optional<Completion> completion(Index k, const Mat3& plain) const;
 };
 
 enum class SampleContent { values, values_and_gradients };

@@ -1,5 +1,6 @@
 #include "solver/field/supports.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -28,6 +29,18 @@ void smooth(const Points& particles, double usual, double smoothness, Eigen::Vec
 /// A point asks no more once supports grew this often without reaching it by another particle.
 constexpr int most_vain_rounds = 3;
 
+/// Particles and the measures that their supports have; round ones the usual.
+struct Reach {
+  const Points& particles;
+  const std::vector<Mat3>& stretches;
+
+  /// The support radius that particle i would need to reach x.
+  double needed(Index i, const Vec3& x) const {
+    const Vec3 way = x - particles.row(i).transpose();
+    return stretches.empty() ? way.norm() : (stretches[static_cast<std::size_t>(i)] * way).norm();
+  }
+};
+
 /// A covered point that asks for wider supports around it.
 struct Demand {
   Index point;
@@ -48,29 +61,36 @@ std::vector<int> hidden_from(const Vec3& x, double reach, const Detours* detours
 }
 
 /// Widens the supports of all particles that shall reach a demand's point.
-void meet(const std::vector<Demand>& demands, const Points& cover, const Points& particles,
+void meet(const std::vector<Demand>& demands, const Points& cover, const Reach& reach,
           const Detours* detours, Eigen::VectorXd& radii) {
   for (const Demand& demand : demands) {
-    const double reach = reach_share * demand.radius;
-    const std::vector<int> hidden =
-        hidden_from(cover.row(demand.point).transpose(), reach, detours);
-    for (Index i = 0; i < particles.rows(); ++i)
-      if ((particles.row(i) - cover.row(demand.point)).squaredNorm() <= reach * reach &&
+    const double within = reach_share * demand.radius;
+    const Vec3 x = cover.row(demand.point).transpose();
+    const std::vector<int> hidden = hidden_from(x, within, detours);
+    for (Index i = 0; i < reach.particles.rows(); ++i)
+      if (reach.needed(i, x) <= within &&
           !std::binary_search(hidden.begin(), hidden.end(), static_cast<int>(i)))
         radii[i] = std::max(radii[i], demand.radius);
   }
 }
 
 /// Demands of the points with fewer particles near than they need.
-std::vector<Demand> sparse_points(const Points& particles, const Points& cover, double usual,
+std::vector<Demand> sparse_points(const Reach& reach, const Points& cover, double usual,
                                   const SupportOptions& options) {
-  const Neighbors<3> tree(particles, Eigen::VectorXd::Constant(particles.rows(), usual));
+  const Neighbors<3> tree(reach.particles,
+                          Eigen::VectorXd::Constant(reach.particles.rows(), usual));
+  // Those nearest by a stretched measure are among a few times more of the nearest.
+  const int wanted = options.least_neighbors;
+  const int candidates = reach.stretches.empty() ? wanted : 4 * wanted;
   Eigen::VectorXd needed(cover.rows());
   parallel_chunks(cover.rows(), points_per_chunk, [&](Index begin, Index end) {
     for (Index k = begin; k < end; ++k) {
       const Vec3 x = cover.row(k).transpose();
-      const int farthest = tree.nearest(x, options.least_neighbors).back();
-      needed[k] = (particles.row(farthest).transpose() - x).norm() * (1 + 1e-12) / reach_share;
+      std::vector<double> radii;
+      for (const int i : tree.nearest(x, candidates)) radii.push_back(reach.needed(i, x));
+      std::sort(radii.begin(), radii.end());
+      radii.resize(std::min(radii.size(), static_cast<std::size_t>(wanted)));
+      needed[k] = radii.back() * (1 + 1e-12) / reach_share;
     }
   });
   std::vector<Demand> demands;
@@ -118,12 +138,36 @@ std::vector<Demand> grown(std::vector<Demand>& demands, const SupportOptions& op
 
 }  // namespace
 
+std::vector<Mat3> stretches_along(const Points& particles, double radius, double most_stretch) {
+  const Neighbors<3> tree(particles, Eigen::VectorXd::Constant(particles.rows(), radius));
+  std::vector<Mat3> stretches(static_cast<std::size_t>(particles.rows()));
+  std::vector<int> near;
+  for (Index i = 0; i < particles.rows(); ++i) {
+    tree.reaching(particles.row(i).transpose(), near);
+    const Points around = particles(near, Eigen::all);
+    const Points spread = around.rowwise() - around.colwise().mean();
+    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(spread.transpose() * spread);
+    const double widest = std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
+    Vec3 axes = eigen.eigenvalues().cwiseMax(0).cwiseSqrt().cwiseMax(widest / most_stretch);
+    if (widest > 0)
+      axes /= std::cbrt(axes.prod());
+    else
+      axes.setOnes();
+    stretches[static_cast<std::size_t>(i)] =
+        eigen.eigenvectors() * axes.cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+  }
+  return stretches;
+}
+
 Supports choose_supports(const Points& particles, double spacing, const Points& cover,
                          KernelKind kernel, const SupportOptions& options,
                          const DetoursWithin& detours_within) {
   const double usual = spacing * std::cbrt(options.neighbors * 3 / (4 * std::numbers::pi));
   Supports supports;
   supports.radii = Eigen::VectorXd::Constant(particles.rows(), usual);
+  if (options.kind == SupportKind::stretched)
+    supports.stretches = stretches_along(particles, usual, options.most_stretch);
+  const Reach reach{particles, supports.stretches};
   const auto find_detours = [&] {
     if (!detours_within) return;
     const double widest = options.widest_inside * usual;
@@ -132,7 +176,7 @@ Supports choose_supports(const Points& particles, double spacing, const Points& 
     if (supports.detours) supports.radii = supports.radii.cwiseMin(widest);
   };
   find_detours();
-  meet(sparse_points(particles, cover, usual, options), cover, particles, supports.detours.get(),
+  meet(sparse_points(reach, cover, usual, options), cover, reach, supports.detours.get(),
        supports.radii);
   smooth(particles, usual, options.smoothness, supports.radii);
 
@@ -141,10 +185,10 @@ Supports choose_supports(const Points& particles, double spacing, const Points& 
   for (int round = 0; round <= options.rounds && !demands.empty(); ++round) {
     find_detours();
     const MovingLeastSquares<3> field(particles, supports.radii, {BasisOrder::linear, kernel},
-                                      supports.detours);
+                                      supports.detours, supports.stretches);
     demands = steep_points(field, cover, std::move(demands), options.most_slope / usual, options);
     if (round == options.rounds) break;
-    meet(grown(demands, options), cover, particles, supports.detours.get(), supports.radii);
+    meet(grown(demands, options), cover, reach, supports.detours.get(), supports.radii);
     smooth(particles, usual, options.smoothness, supports.radii);
   }
   supports.thin = static_cast<long>(demands.size());

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include <ceres/cost_function.h>
@@ -28,11 +29,16 @@ class SampleCost final : public ceres::CostFunction {
 
   bool Evaluate(double const* const* u, double* residuals, double** jacobians) const override {
     LocalResidual local;
-    energy_.evaluate(field(u), local);
+    LocalField at = field(u);
+    const std::optional<Completion> completion = samples_.completion(sample_, at.F);
+    if (completion) at.F = completion->F();
+    energy_.evaluate(at, local);
     for (int row = 0; row < energy_.rows(); ++row) residuals[row] = factor_ * local.r[row];
-    if (jacobians)
-      for (std::size_t j = 0; j < parameter_block_sizes().size(); ++j)
-        if (jacobians[j]) fill_jacobian(local, entry(j), jacobians[j]);
+    if (!jacobians) return true;
+    if (completion && energy_.argument() == Energy::Argument::gradient)
+      derive_by_carried(*completion, local);
+    for (std::size_t j = 0; j < parameter_block_sizes().size(); ++j)
+      if (jacobians[j]) fill_jacobian(local, entry(j), jacobians[j]);
     return true;
   }
 
@@ -41,6 +47,17 @@ class SampleCost final : public ceres::CostFunction {
     return static_cast<std::size_t>(samples_.row_begin(sample_)) + j;
   }
 
+  /// Of a completed F, the derivative by what the particles carry of it.
+  void derive_by_carried(const Completion& completion, LocalResidual& local) const {
+    using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+    for (int row = 0; row < energy_.rows(); ++row) {
+      const Eigen::Matrix<double, 1, 9> by_F = local.jacobian.row(row);
+      const RowMajor by_carried = completion.by_carried(Eigen::Map<const RowMajor>(by_F.data()));
+      local.jacobian.row(row) = Eigen::Map<const Eigen::Matrix<double, 1, 9>>(by_carried.data());
+    }
+  }
+
+  /// Not completed where the span is short.
   LocalField field(double const* const* u) const {
     LocalField at;
     at.sample = sample_;

@@ -17,8 +17,9 @@ struct Case {
   void (*measure)(Figures& figures);
 };
 
-std::span<const Case> moment_matrix_cases();  ///< A: moving least squares
-std::span<const Case> pose_cases();           ///< C: poses
-std::span<const Case> input_cases();          ///< K: inputs and outputs
+std::span<const Case> moment_matrix_cases();     ///< A: moving least squares
+std::span<const Case> degenerate_cloud_cases();  ///< A: over particles as they should not lie
+std::span<const Case> pose_cases();              ///< C: poses
+std::span<const Case> input_cases();             ///< K: inputs and outputs
 
 }  // namespace supple

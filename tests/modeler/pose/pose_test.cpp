@@ -10,6 +10,7 @@
 #include "io/scene/scene_reader.h"
 #include "modeler/domain/shape_error.h"
 #include "solver/core/parallel.h"
+#include "tests/support/all_of.h"
 #include "tests/support/shapes.h"
 
 namespace supple {
@@ -192,19 +193,29 @@ TEST(Pose, BothSurfaceAlternativesGiveNearlyTheSamePose) {
   EXPECT_GT((a - b).cwiseAbs().maxCoeff(), 1e-6);
 }
 
+/// Poses a bar over a field of `shape` keys.
+void expect_pose(const std::string& shape) {
+  const Scene scene = read_scene_text(
+      fmt::format("shape: {{mesh: m.obj, particles: 150, {}}}\n"
+                  "pose: {{handles: [{{fix: 'z<10%'}}, {{move: 'z>90%', by: [10%, 0, 0]}}]}}",
+                  shape),
+      "test", "");
+  const PoseResult result = pose(make_quad_bar({0.25, 0.25, 1}, {4, 4, 16}), scene);
+  EXPECT_TRUE(result.report.usable()) << shape;
+  EXPECT_LT(result.handle_max_error, 0.01) << shape;
+}
+
 TEST(Pose, EveryBasisAndKernelPoses) {
-  const Mesh bar = make_quad_bar({0.25, 0.25, 1}, {4, 4, 16});
   for (const char* basis : {"linear", "quadratic"})
-    for (const char* kernel : {"polynomial", "wendland", "box"}) {
-      const Scene scene = read_scene_text(
-          fmt::format("shape: {{mesh: m.obj, particles: 150, basis: {}, kernel: {}}}\n"
-                      "pose: {{handles: [{{fix: 'z<10%'}}, {{move: 'z>90%', by: [10%, 0, 0]}}]}}",
-                      basis, kernel),
-          "test", "");
-      const PoseResult result = pose(bar, scene);
-      EXPECT_TRUE(result.report.usable()) << basis << " " << kernel;
-      EXPECT_LT(result.handle_max_error, 0.01) << basis << " " << kernel;
-    }
+    for (const KernelKind kernel : all_of<KernelKind>())
+      expect_pose(fmt::format("basis: {}, kernel: {}", basis, enum_name(kernel)));
+}
+
+TEST(Pose, EveryGradientAndSupportPoses) {
+  for (const GradientKind gradient : all_of<GradientKind>())
+    for (const SupportKind supports : all_of<SupportKind>())
+      expect_pose(
+          fmt::format("gradient: {}, supports: {}", enum_name(gradient), enum_name(supports)));
 }
 
 TEST(Pose, SaysWhatIsWrongWithAShape) {

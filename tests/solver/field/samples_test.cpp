@@ -80,6 +80,66 @@ TEST(Samples, CountInvertedPoints) {
   EXPECT_NEAR(count.min_det_F, -1, 1e-9);
 }
 
+/// A body pressed to a thickness that lets one direction fade, or nothing of it.
+Body pressed_body(double flatness) {
+  Body body;
+  body.particles.positions.col(2) *= flatness;
+  body.field = {body.particles.positions, body.field.supports()};
+  return body;
+}
+
+TEST(Samples, CarryTheirSpansPartOfAffineMaps) {
+  long fading = 0;
+  for (const double flatness : {0.0, 4e-3, 6e-3, 8e-3, 1e-2}) {
+    const Body body = pressed_body(flatness);
+    Points points = points_in_body(200);
+    points.col(2) *= 0.1;  // off the plane, too
+    const Samples samples = sample_field(body.field, points, SampleContent::values_and_gradients);
+    for (const Samples::ShortSpan& at : samples.short_spans) {
+      Mat3 sum = Mat3::Zero();
+      for (int entry = samples.row_begin(at.sample); entry < samples.row_end(at.sample); ++entry)
+        sum += body.particles.positions.row(samples.particles[std::size_t(entry)]).transpose() *
+               samples.gradients[std::size_t(entry)].transpose();
+      EXPECT_LT((sum - (Mat3::Identity() - at.span.missing())).norm(), 1e-10);
+      EXPECT_GT(at.span.axes.determinant(), 0.99);
+      if (at.span.shares[2] > 0.01) ++fading;
+    }
+    EXPECT_EQ(samples.short_spans.size() == 200, flatness < 6e-3);
+  }
+  EXPECT_GT(fading, 100);
+}
+
+TEST(Samples, PassSmoothlyFromFullToShortSpans) {
+  // F of one bend, at one point, while the body is pressed flat through the whole window.
+  const Vec3 x(0.5, 0.4, 0);
+  Mat3 last = Mat3::Zero();
+  double most = 0, least_share = 1, greatest_share = 0;
+  for (double flatness = 2e-2; flatness > 1e-3; flatness *= 0.995) {
+    const Body body = pressed_body(flatness);
+    const Samples samples =
+        sample_field(body.field, Points(x.transpose()), SampleContent::values_and_gradients);
+    const Mat3 F = samples.deformation_gradient(0, bend(body.particles.positions));
+    if (!last.isZero()) most = std::max(most, (F - last).norm());
+    last = F;
+    const double share = samples.short_spans.empty() ? 1 : samples.short_spans[0].span.shares[2];
+    least_share = std::min(least_share, share);
+    greatest_share = std::max(greatest_share, share);
+  }
+  EXPECT_EQ(greatest_share, 1);
+  EXPECT_LT(least_share, 1e-3);
+  EXPECT_LT(most, 0.02);
+}
+
+TEST(Samples, LetAPlaneOfParticlesTurnWithoutInversion) {
+  const Body body = pressed_body(0);
+  const Samples samples =
+      sample_field(body.field, body.particles.positions, SampleContent::values_and_gradients);
+  const Mat3 R = Eigen::AngleAxisd(EIGEN_PI, Vec3::UnitX()).toRotationMatrix();
+  const Points u = affine(body.particles.positions, 1.1 * R, Vec3::Zero());
+  EXPECT_EQ(count_inversions(samples, u).inverted, 0);
+  EXPECT_NEAR(count_inversions(samples, u).min_det_F, 1.21, 1e-10);
+}
+
 class BlockedFieldTest : public testing::Test {
  protected:
   Body body;
@@ -98,6 +158,24 @@ TEST_F(BlockedFieldTest, AgreesWithThePlainRows) {
     EXPECT_LT((positions.row(k).transpose() - samples.position(k, u)).norm(), 1e-6);
     EXPECT_LT((gradients[std::size_t(k)] - samples.deformation_gradient(k, u)).norm(), 1e-4);
   }
+}
+
+TEST_F(BlockedFieldTest, CompletesGradientsOfAPlaneOfParticles) {
+  const Body flat = pressed_body(0);
+  points.col(2) *= 0.1;
+  const BlockedField vertices(flat.field, points);
+  const Samples samples = sample_field(flat.field, points, SampleContent::values_and_gradients);
+  const RigidMotion rigid{Eigen::AngleAxisd(2, Vec3(1, 2, 3).normalized()).toRotationMatrix(),
+                          Vec3(1, 2, 3)};
+  const Points small = 0.1 * bend(flat.particles.positions);
+  Points u = small;
+  for (Index j = 0; j < u.rows(); ++j)
+    u.row(j) += rigid(flat.particles.positions.row(j).transpose()).transpose() -
+                flat.particles.positions.row(j);
+  std::vector<Mat3> gradients;
+  vertices.displace_gradients(rigid, small.cast<float>(), gradients);
+  for (Index k = 0; k < points.rows(); ++k)
+    EXPECT_LT((gradients[std::size_t(k)] - samples.deformation_gradient(k, u)).norm(), 1e-4);
 }
 
 TEST_F(BlockedFieldTest, KeepsLargeRigidMotionsInDoublePrecision) {

@@ -1,5 +1,6 @@
 #include "solver/field/supports.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -65,6 +66,36 @@ TEST(Supports, NameASheetThin) {
   sheet.positions.col(2).setZero();
   const Supports supports = choose_supports(sheet.positions, 0.1, sheet.positions);
   EXPECT_EQ(supports.thin, sheet.size());
+}
+
+TEST(Supports, StretchAlongThinPartsAndStayRoundInside) {
+  const Particles plate = lattice_particles({2, 2, 0.1}, 0.1);
+  const auto stretches = stretches_along(plate.positions, 0.181, 3);
+  for (const Mat3& N : stretches) {
+    EXPECT_NEAR(N.determinant(), 1, 1e-12);
+    const Vec3 axes = Eigen::SelfAdjointEigenSolver<Mat3>(N).eigenvalues().cwiseInverse();
+    EXPECT_LE(axes[0] / axes[2], 3 + 1e-12);
+  }
+  const Index middle = 210;
+  EXPECT_GT((stretches[middle] * Vec3::UnitZ()).norm(), 1.9);  // 3^(2/3): short across
+  EXPECT_LT((stretches[middle] * Vec3::UnitX()).norm(), 0.9);
+
+  const Particles body = lattice_particles({1, 1, 1}, 0.1);
+  EXPECT_LT((stretches_along(body.positions, 0.3, 3)[555] - Mat3::Identity()).norm(), 0.15);
+}
+
+TEST(Supports, StretchedReachEveryPointByEnoughParticles) {
+  const Particles bar = lattice_particles({3, 0.3, 0.15}, 0.15);
+  const Points cover = random_points_in({3, 0.3, 0.15}, 500);
+  const Supports supports = choose_supports(bar.positions, 0.15, cover, KernelKind::polynomial,
+                                            {.kind = SupportKind::stretched});
+  const MovingLeastSquares<3> field(bar.positions, supports.radii, {}, nullptr, supports.stretches);
+  ShapeFunctions<3> at_x;
+  for (Index k = 0; k < cover.rows(); ++k) {
+    field.evaluate(cover.row(k).transpose(), Derivatives::none, at_x);
+    EXPECT_GE(at_x.particles.size(), 8u);
+    EXPECT_EQ(at_x.rank, 4);
+  }
 }
 
 }  // namespace
