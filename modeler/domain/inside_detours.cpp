@@ -12,8 +12,8 @@ namespace {
 
 constexpr Index particles_a_chunk = 16;
 
-/// Supports that grow shall not ask again each time.
-constexpr double foresight = 1.15;
+/// Supports that grow shall not ask again each time: those that do will grow more.
+constexpr double foresight = 1.15, foresight_in_growth = 1.5;
 
 /// Turns lie at seats, not at the boundary: ways are longer than they should by less than this
 /// share of the spacing, and as much is left out.
@@ -220,7 +220,7 @@ std::shared_ptr<const Detours> InsideDetours::within(const Eigen::VectorXd& supp
   for (Index i = 0; i < supports.size(); ++i)
     if (supports[i] > radii_[i]) {
       grown.push_back(static_cast<int>(i));
-      radii_[i] = foresight * supports[i];
+      radii_[i] = (radii_[i] > 0 ? foresight_in_growth : foresight) * supports[i];
     }
   if (grown.empty()) return latest_;
   parallel_chunks(static_cast<Index>(grown.size()), particles_a_chunk, [&](Index begin, Index end) {

@@ -105,7 +105,7 @@ std::vector<Demand> steep_points(const MovingLeastSquares<3>& field, const Point
                                  std::vector<Demand> points, double most_slope,
                                  const SupportOptions& options) {
   std::vector<char> steep(points.size());
-  const std::size_t least = field.detours() ? static_cast<std::size_t>(options.least_neighbors) : 0;
+  const std::size_t least = field.detours() ? static_cast<std::size_t>(options.least_inside) : 0;
   parallel_chunks(static_cast<Index>(points.size()), points_per_chunk, [&](Index begin, Index end) {
     ShapeFunctions<3> at_x;
     for (Index k = begin; k < end; ++k) {

@@ -18,6 +18,7 @@ struct SupportOptions {
   double growth = 1.15;
   int rounds = 12;
   double smoothness = 1;
+  int least_inside = 10;
   double widest_inside = 2.5;
 
   template <class Self, class Visitor>
@@ -35,6 +36,9 @@ struct SupportOptions {
     visit("rounds", self.rounds, {.doc = "rounds of growth at most", .min = 0, .max = 100});
     visit("smoothness", self.smoothness,
           {.doc = "by how much supports may differ over a distance", .min = 0.01});
+    visit("least_inside", self.least_inside,
+          {.doc = "the same where there are detours: some of these particles count little",
+           .min = 1});
     visit("widest_inside", self.widest_inside,
           {.doc = "supports where there are detours, at most, in usual ones", .min = 1});
   }

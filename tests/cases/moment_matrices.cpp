@@ -158,6 +158,7 @@ void measure_gradients(Figures& figures) {
         keep_worst(figures["affine_field"], (gradient - b).norm() / b.norm());
       }
     }
+  measure_concave_gradients(figures);
 }
 
 constexpr Case cases[] = {{"A1", measure_flat_clouds},
