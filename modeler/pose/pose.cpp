@@ -146,10 +146,20 @@ void measure_handles(const Solid& solid, const SolidField& field, const HandleSa
     result.handle_rms_error = std::sqrt(all_squares / static_cast<double>(all_samples));
 }
 
-/// Within the region's boundary, at rest and carried along: the mesh itself may be open.
+/// Within the region's boundary, at rest and carried along: the mesh itself may be open. Where
+/// the boundary is not of the shape's vertices, ∫ det F.
 void measure_volume(const Solid& solid, const SolidField& field, const Points& u,
                     const DeformedSurface& surface, PoseResult& result) {
   const CarriedBoundary& boundary = solid.boundary();
+  if (boundary.triangles.rows() == 0) {
+    const double unit = std::pow(solid.unit(), 3);
+    for (Index k = 0; k < field.quadrature.size(); ++k) {
+      const double volume = unit * field.points.volumes[k];
+      result.volume_before += volume;
+      result.volume_after += volume * field.quadrature.deformation_gradient(k, u).determinant();
+    }
+    return;
+  }
   const Samples samples = sample_field(field.mls, boundary.extra, SampleContent::values);
   Points extra(boundary.extra.rows(), 3);
   for (Index k = 0; k < extra.rows(); ++k) extra.row(k) = samples.position(k, u).transpose();
