@@ -12,6 +12,10 @@ namespace supple {
 enum class QuadratureKind { automatic, particles, cells };
 EnumNames<QuadratureKind> enum_names(QuadratureKind);
 
+/// By which ways particles reach points: those inside the shape alone, or straight through gaps.
+enum class CouplingKind { inside, straight };
+EnumNames<CouplingKind> enum_names(CouplingKind);
+
 /// What one unit of a mesh file's coordinates, and of lengths without a percent, stands for.
 enum class FileUnit { metre, centimetre, millimetre, inch };
 EnumNames<FileUnit> enum_names(FileUnit);
@@ -28,6 +32,7 @@ struct ShapeSpec {
   BasisOrder basis = BasisOrder::linear;
   KernelKind kernel = KernelKind::polynomial;
   QuadratureKind quadrature = QuadratureKind::automatic;
+  CouplingKind coupling = CouplingKind::inside;
 
   const std::string& file() const { return points.empty() ? mesh : points; }
 
@@ -55,6 +60,8 @@ struct ShapeSpec {
     visit("kernel", self.kernel, {.doc = "weight function of the moving least squares"});
     visit("quadrature", self.quadrature,
           {.doc = "where energies are sampled (cells: not available yet)"});
+    visit("coupling", self.coupling,
+          {.doc = "what parts feel of each other: by ways inside the shape, or across gaps too"});
   }
 };
 

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "modeler/domain/closed_region.h"
 #include "modeler/domain/partition_of_unity.h"
 #include "modeler/domain/point_cleaning.h"
 #include "modeler/domain/point_neighbors.h"
@@ -15,6 +14,7 @@
 #include "modeler/domain/region_cover.h"
 #include "modeler/domain/shape_error.h"
 #include "modeler/domain/site_tree.h"
+#include "modeler/domain/surface_measures.h"
 #include "modeler/domain/triangle_tree.h"
 #include "solver/core/parallel.h"
 

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "modeler/domain/disjoint_sets.h"
 #include "modeler/domain/surface_measures.h"
 
 namespace supple {
@@ -30,12 +31,6 @@ std::vector<int> number_positions(const Points& positions, std::vector<int>& fir
     numbers[i] = static_cast<int>(firsts.size()) - 1;
   }
   return numbers;
-}
-
-/// The representative of i's set; halves the path to it on the way.
-int root_of(std::vector<int>& parents, int i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
 }
 
 }  // namespace
@@ -100,15 +95,14 @@ Triangles without_duplicates(const Triangles& triangles) {
 }
 
 std::vector<int> connected_parts(const Triangles& triangles) {
-  std::vector<int> parents(triangles.size() > 0 ? triangles.maxCoeff() + 1 : 0);
-  std::iota(parents.begin(), parents.end(), 0);
+  const int vertices = triangles.size() > 0 ? triangles.maxCoeff() + 1 : 0;
+  DisjointSets sets(vertices);
   for (Index t = 0; t < triangles.rows(); ++t)
-    for (int k = 1; k < 3; ++k)
-      parents[root_of(parents, triangles(t, k))] = root_of(parents, triangles(t, 0));
-  std::vector<int> numbers(parents.size(), -1), parts(triangles.rows());
+    for (int k = 1; k < 3; ++k) sets.unite(triangles(t, 0), triangles(t, k));
+  std::vector<int> numbers(vertices, -1), parts(triangles.rows());
   int count = 0;
   for (Index t = 0; t < triangles.rows(); ++t) {
-    int& number = numbers[root_of(parents, triangles(t, 0))];
+    int& number = numbers[sets.root(triangles(t, 0))];
     if (number < 0) number = count++;
     parts[t] = number;
   }

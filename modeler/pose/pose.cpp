@@ -58,10 +58,11 @@ struct SolidField {
   SurfaceEmbedding surface;
 
   SolidField(const Solid& solid, const ShapeSpec& shape, SurfaceKind surface_kind)
-      : mls(solid.particles().positions, solid.particles().supports, {shape.basis, shape.kernel}),
+      : mls(solid.particles().positions, solid.particles().supports, {shape.basis, shape.kernel},
+            solid.detours()),
         points(solid.quadrature(shape.quadrature)),
         quadrature(sample_field(mls, points.points, SampleContent::values_and_gradients)),
-        surface(mls, quadrature, solid.vertices(), surface_kind) {}
+        surface(mls, quadrature, solid.inner_vertices(), surface_kind) {}
   SolidField(const SolidField&) = delete;
 };
 
@@ -81,6 +82,16 @@ HandleSamples choose_handles(const Mesh& mesh, const Solid& solid, const Scene& 
 void book(std::vector<Effect>& effects, const std::string& name, double seconds) {
   for (Effect& effect : effects)
     if (effect.active && effect.name == name) effect.seconds += seconds;
+}
+
+/// Coupling inside is off where no straight line leaves the shape.
+void book_coupling(std::vector<Effect>& effects, const Solid& solid) {
+  book(effects, "coupling", solid.coupling_seconds());
+  for (Effect& effect : effects)
+    if (effect.active && effect.name == "coupling" && !solid.detours()) {
+      effect.active = false;
+      effect.why = "no straight line from a particle to what it reaches leaves the shape";
+    }
 }
 
 Report solve(const Solid& solid, const SolidField& field, const HandleSamples& handles,
@@ -250,6 +261,8 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
     return std::make_unique<const SolidField>(solid, scene.shape, spec.surface);
   });
 
+  book_coupling(result.effects, solid);
+
   Points u = Points::Zero(solid.particles().size(), 3);
   if (handles.empty())
     result.report.notes.push_back("no handles: the shape stays as it is");
@@ -265,7 +278,7 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   book(result.effects, "surface", timing.seconds.back().second);
   // Added to the input rather than replacing it: what did not move keeps its last bit.
   result.mesh.positions =
-      result.rest.positions + solid.unit() * (surface.positions - solid.vertices());
+      result.rest.positions + solid.unit() * (surface.positions - solid.inner_vertices());
 
   result.particles = solid.particles();
   result.particles.positions = solid.restored(solid.particles().positions);

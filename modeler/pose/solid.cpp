@@ -1,15 +1,18 @@
 #include "modeler/pose/solid.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
+#include "modeler/domain/beneath_surface.h"
+#include "modeler/domain/inside_cover.h"
+#include "modeler/domain/inside_detours.h"
 #include "modeler/domain/make_region.h"
 #include "modeler/domain/sample_particles.h"
 #include "modeler/domain/shape_error.h"
-#include "solver/field/supports.h"
 
 namespace supple {
 namespace {
@@ -23,6 +26,25 @@ constexpr double surface_share = 0.15;
 
 /// Surface samples are no wider than this share of the particles' spacing.
 constexpr double sample_width_over_spacing = 0.5;
+
+/// How far inside a surface points are taken where gaps may have no width, of the diagonal: little
+/// enough to be rounding, and well above that of the segments that part the walls.
+constexpr double beneath = 1e-10;
+
+/// Adds the time that it lives.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 std::vector<bool> vertices_of_faces(const Mesh& mesh) {
   std::vector<bool> used(static_cast<std::size_t>(mesh.positions.rows()), false);
@@ -70,6 +92,12 @@ Solid::Solid(const Mesh& mesh, const ShapeSpec& spec)
   sample(mesh, spec);
   surface_ = sample_surface(vertices_, triangulation_.triangles,
                             sample_width_over_spacing * particles_.spacing);
+  inner_vertices_ = vertices_;
+  if (graph_ && graph_->parted()) {
+    const Triangles& triangles = triangulation_.triangles;
+    inner_vertices_ = vertices_beneath(vertices_, triangles, beneath);
+    surface_.positions = samples_beneath(surface_, vertices_, triangles, beneath);
+  }
 }
 
 void Solid::sample(const Mesh& mesh, const ShapeSpec& spec) {
@@ -79,11 +107,22 @@ void Solid::sample(const Mesh& mesh, const ShapeSpec& spec) {
   const long unused = std::count(used_.begin(), used_.end(), false);
   if (unused > 0)
     notes_.push_back(fmt::format("{} vertices that no face uses follow the solid", unused));
-  particles_ = sample_particles(*solid.region, sampling_options(spec, unit_, unit_)).particles;
-  for (std::string& note : solid.empty_parts(particles_.positions))
-    notes_.push_back(std::move(note));
   region_ = std::move(solid.region);
   boundary_ = std::move(solid.boundary);
+  ParticleSampling sampling = sample_particles(*region_, sampling_options(spec, unit_, unit_));
+  particles_ = std::move(sampling.particles);
+  if (spec.coupling == CouplingKind::inside) couple_inside(sampling.samples);
+  for (std::string& note : solid.empty_parts(particles_.positions))
+    notes_.push_back(std::move(note));
+}
+
+void Solid::couple_inside(const VolumeSamples& samples) {
+  const Stopwatch stopwatch(coupling_seconds_);
+  graph_ = std::make_shared<const InsideGraph>(*region_, samples);
+  const InsideCover cover = cover_inside(*graph_, particles_);
+  if (cover.added > 0)
+    notes_.push_back(fmt::format(
+        "{} particles were added in parts that no other reaches by the way inside", cover.added));
 }
 
 Points Solid::spread_over_surface(double width) const {
@@ -104,11 +143,23 @@ double Solid::choose_particle_supports(KernelKind kernel) {
   cover.bottomRows(spread.rows()) = spread;
   Index row = particles_.size();
   for (std::size_t i = 0; i < used_.size(); ++i)
-    if (used_[i]) cover.row(row++) = vertices_.row(static_cast<Index>(i));
+    if (used_[i]) cover.row(row++) = inner_vertices_.row(static_cast<Index>(i));
 
-  Supports supports = choose_supports(particles_.positions, particles_.spacing, cover, kernel);
+  Supports supports = choose_supports(particles_.positions, particles_.spacing, cover, kernel, {},
+                                      detours_within_supports());
   particles_.supports = std::move(supports.radii);
+  detours_ = std::move(supports.detours);
   return static_cast<double>(supports.thin) / static_cast<double>(cover.rows());
+}
+
+DetoursWithin Solid::detours_within_supports() {
+  if (!graph_) return {};
+  const auto finder =
+      std::make_shared<InsideDetours>(graph_, particles_.positions, particles_.spacing);
+  return [this, finder](const Eigen::VectorXd& supports) {
+    const Stopwatch stopwatch(coupling_seconds_);
+    return finder->within(supports);
+  };
 }
 
 Quadrature Solid::quadrature(QuadratureKind kind) const {

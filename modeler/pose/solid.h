@@ -5,10 +5,13 @@
 #include "io/mesh/mesh.h"
 #include "io/scene/shape_spec.h"
 #include "modeler/domain/carried_boundary.h"
+#include "modeler/domain/inside_graph.h"
 #include "modeler/domain/surface_samples.h"
 #include "solver/core/report.h"
 #include "solver/core/rest_shape.h"
+#include "solver/field/detours.h"
 #include "solver/field/samples.h"
+#include "solver/field/supports.h"
 
 namespace supple {
 
@@ -34,10 +37,16 @@ class Solid {
 
   // In our coordinates:
   const Points& vertices() const { return vertices_; }
+  /// Just inside the surface where gaps cut the solid; else the vertices.
+  const Points& inner_vertices() const { return inner_vertices_; }
   const SurfaceSamples& surface() const { return surface_; }
   const Region& region() const { return *region_; }
   const CarriedBoundary& boundary() const { return boundary_; }
   const Particles& particles() const { return particles_; }
+
+  /// Between the particles and what they reach; null where straight ways stay inside.
+  const std::shared_ptr<const Detours>& detours() const { return detours_; }
+  double coupling_seconds() const { return coupling_seconds_; }  ///< that finding them took
 
   const std::vector<bool>& used_vertices() const { return used_; }  ///< by any face
   const std::vector<std::string>& notes() const { return notes_; }
@@ -56,6 +65,9 @@ class Solid {
 
  private:
   void sample(const Mesh& mesh, const ShapeSpec& spec);
+  /// How the solid hangs together inside; particles are added where none reaches by ways inside.
+  void couple_inside(const VolumeSamples& samples);
+  DetoursWithin detours_within_supports();
   /// Surface points about `width` apart, in our coordinates.
   Points spread_over_surface(double width) const;
 
@@ -64,11 +76,14 @@ class Solid {
   Box box_;
   Eigen::RowVector3d origin_;
   double unit_;
-  Points vertices_;
+  Points vertices_, inner_vertices_;
   std::unique_ptr<const Region> region_;
   CarriedBoundary boundary_;
+  std::shared_ptr<const InsideGraph> graph_;  ///< null where ways are straight
   SurfaceSamples surface_;
   Particles particles_;
+  std::shared_ptr<const Detours> detours_;
+  double coupling_seconds_ = 0;
   std::vector<std::string> notes_;
   std::vector<Reason> reasons_;
 };

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "modeler/domain/surface_samples.h"
+
+namespace supple {
+
+/// Points just inside a surface, so that those on the two walls of a gap of no width part.
+
+/// Each vertex moved by about `depth` [m] below a triangle that has it; where none has, it stays.
+Points vertices_beneath(const Points& positions, const Triangles& triangles, double depth);
+
+/// Each sample moved by `depth` [m] below its triangle.
+Points samples_beneath(const SurfaceSamples& samples, const Points& positions,
+                       const Triangles& triangles, double depth);
+
+}  // namespace supple
