@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "modeler/domain/closed_region.h"
+#include "modeler/domain/surface_measures.h"
 
 namespace supple {
 namespace {
@@ -10,12 +10,6 @@ namespace {
 /// How much farther a vertex moves along its triangle than below it: it must not leave by the
 /// triangles beside that.
 constexpr double along = 10;
-
-Vec3 normal_of(const Points& positions, const Triangles& triangles, Index t) {
-  const Vec3 a = positions.row(triangles(t, 0)), b = positions.row(triangles(t, 1)),
-             c = positions.row(triangles(t, 2));
-  return (b - a).cross(c - a);
-}
 
 /// `depth` signed so that normals times it point out of the solid.
 double outward(const Points& positions, const Triangles& triangles, double depth) {
@@ -29,7 +23,7 @@ Points vertices_beneath(const Points& positions, const Triangles& triangles, dou
   Points beneath = positions;
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(positions.rows());
   for (Index t = 0; t < triangles.rows(); ++t) {
-    const Vec3 normal = normal_of(positions, triangles, t);
+    const Vec3 normal = double_area_normal(positions, triangles, t);
     const double area = normal.norm();
     const Vec3 center = positions({triangles(t, 0), triangles(t, 1), triangles(t, 2)}, Eigen::all)
                             .colwise()
@@ -52,9 +46,16 @@ Points samples_beneath(const SurfaceSamples& samples, const Points& positions,
   const double signed_depth = outward(positions, triangles, depth);
   Points beneath = samples.positions;
   for (Index k = 0; k < samples.size(); ++k) {
-    const Vec3 normal = normal_of(positions, triangles, samples.triangles[k]);
+    const Vec3 normal = double_area_normal(positions, triangles, samples.triangles[k]);
     if (normal.norm() > 0) beneath.row(k) -= signed_depth * normal.normalized().transpose();
   }
+  return beneath;
+}
+
+Points points_beneath(const Points& positions, const CloudSurface& surface, double depth) {
+  Points beneath = positions;
+  for (std::size_t k = 0; k < surface.points.size(); ++k)
+    beneath.row(surface.points[k]) -= depth * surface.normals.row(static_cast<Index>(k));
   return beneath;
 }
 

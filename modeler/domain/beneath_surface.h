@@ -1,5 +1,6 @@
 #pragma once
 
+#include "modeler/domain/cloud_surface.h"
 #include "modeler/domain/surface_samples.h"
 
 namespace supple {
@@ -12,5 +13,8 @@ Points vertices_beneath(const Points& positions, const Triangles& triangles, dou
 /// Each sample moved by `depth` [m] below its triangle.
 Points samples_beneath(const SurfaceSamples& samples, const Points& positions,
                        const Triangles& triangles, double depth);
+
+/// Each point of a cloud's surface moved by `depth` [m] against its normal; the others stay.
+Points points_beneath(const Points& positions, const CloudSurface& surface, double depth);
 
 }  // namespace supple

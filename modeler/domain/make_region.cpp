@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "modeler/domain/mesh_region.h"
+#include "modeler/domain/point_region.h"
 
 namespace supple {
 
@@ -66,10 +67,7 @@ std::vector<std::string> empty_parts(const MeshRegion& region, const Points& par
                   empty, parts, 100 * share, 100 * greatest)};
 }
 
-}  // namespace
-
-// A mesh without faces is a cloud of points: its region is to be made here.
-SolidRegion make_region(const Mesh&, const Points& vertices, const Triangles& triangles) {
+SolidRegion region_of_faces(const Points& vertices, const Triangles& triangles) {
   auto region = std::make_unique<const MeshRegion>(vertices, triangles);
   SolidRegion solid;
   solid.boundary = region->boundary();
@@ -80,6 +78,25 @@ SolidRegion make_region(const Mesh&, const Points& vertices, const Triangles& tr
   };
   solid.region = std::move(region);
   return solid;
+}
+
+SolidRegion region_of_points(const Points& points, const Points& normals) {
+  auto region = std::make_unique<const PointRegion>(points, normals);
+  SolidRegion solid;
+  const int count = static_cast<int>(points.rows());
+  solid.boundary = {region->boundary().triangles.array() + count, region->boundary().positions};
+  const PointCloudReading& reading = region->reading();
+  solid.cloud = {reading.kept, reading.normals, reading.areas};
+  solid.notes = reading.notes();
+  solid.region = std::move(region);
+  return solid;
+}
+
+}  // namespace
+
+SolidRegion make_region(const Mesh& mesh, const Points& vertices, const Triangles& triangles) {
+  if (mesh.face_count() > 0) return region_of_faces(vertices, triangles);
+  return region_of_points(vertices, mesh.normals.values);
 }
 
 }  // namespace supple

@@ -8,11 +8,13 @@
 
 #include <fmt/format.h>
 
+#include "io/scene/complaint.h"
 #include "modeler/plan/plan.h"
 #include "modeler/pose/handles.h"
 #include "modeler/pose/pose_solver.h"
 #include "modeler/pose/solid.h"
 #include "modeler/surface/deform_mesh.h"
+#include "modeler/surface/fill_gaps.h"
 
 namespace supple {
 namespace {
@@ -157,26 +159,17 @@ void measure_handles(const Solid& solid, const SolidField& field, const HandleSa
     result.handle_rms_error = std::sqrt(all_squares / static_cast<double>(all_samples));
 }
 
-/// Within the region's boundary, at rest and carried along: the mesh itself may be open. Where
-/// the boundary is not of the shape's vertices, ∫ det F.
+/// Within the region's boundary, at rest and carried along: the mesh itself may be open.
 void measure_volume(const Solid& solid, const SolidField& field, const Points& u,
                     const DeformedSurface& surface, PoseResult& result) {
   const CarriedBoundary& boundary = solid.boundary();
-  if (boundary.triangles.rows() == 0) {
-    const double unit = std::pow(solid.unit(), 3);
-    for (Index k = 0; k < field.quadrature.size(); ++k) {
-      const double volume = unit * field.points.volumes[k];
-      result.volume_before += volume;
-      result.volume_after += volume * field.quadrature.deformation_gradient(k, u).determinant();
-    }
-    return;
-  }
   const Samples samples = sample_field(field.mls, boundary.extra, SampleContent::values);
   Points extra(boundary.extra.rows(), 3);
   for (Index k = 0; k < extra.rows(); ++k) extra.row(k) = samples.position(k, u).transpose();
   const double unit = std::pow(solid.unit(), 3);
   result.volume_before = unit * enclosed_volume(boundary, solid.vertices(), boundary.extra);
-  result.volume_after = unit * enclosed_volume(boundary, surface.positions, extra);
+  const Points moved = solid.vertices() + surface.positions - solid.inner_vertices();
+  result.volume_after = unit * enclosed_volume(boundary, moved, extra);
 }
 
 /// The smallest det F over particles and the surface's vertices, and how many are not positive.
@@ -243,6 +236,36 @@ void judge(const Solid& solid, const SolidField& field, const InversionCount& in
   report.finish();
 }
 
+void check_fill_gaps(const Mesh& mesh, const PoseSpec& spec) {
+  if (spec.fill_gaps && mesh.face_count() > 0)
+    complain(spec.place, "pose.fill_gaps: the shape has faces; allowed: with a point cloud");
+}
+
+/// Points in the user's coordinates, carried as the surface is.
+DeformedSurface carry_points(const Solid& solid, const SolidField& field, SurfaceKind kind,
+                             const Points& u, const Points& rest) {
+  const Points x = solid.scaled(rest);
+  const SurfaceEmbedding embedding(field.mls, field.quadrature, x, kind);
+  DeformedSurface carried = embedding.deform(u, solid.particles().volumes);
+  carried.positions = rest + solid.unit() * (carried.positions - x);
+  return carried;
+}
+
+void fill_gaps(const Solid& solid, const SolidField& field, SurfaceKind kind, const Points& u,
+               PoseResult& result) {
+  FilledCloud filled = fill_gaps(result.rest, result.mesh, [&](const Points& rest) {
+    return carry_points(solid, field, kind, u, rest);
+  });
+  result.report.notes.push_back(
+      fmt::format("{} points fill gaps; they come after the {} of the "
+                  "cloud",
+                  filled.added, result.rest.positions.rows()));
+  if (filled.gaps > 0)
+    result.report.notes.push_back(fmt::format(
+        "{} gaps between points stay open: the cloud would grow too large", filled.gaps));
+  result.mesh = std::move(filled.deformed);
+}
+
 }  // namespace
 
 PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) {
@@ -250,6 +273,7 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   Report timing;
   Stages stages(progress, timing);
   const PoseSpec& spec = *scene.pose;
+  check_fill_gaps(mesh, spec);
   result.effects = make_plan(scene).effects;
 
   result.rest = sized(mesh, scene.shape);
@@ -279,6 +303,8 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   // Added to the input rather than replacing it: what did not move keeps its last bit.
   result.mesh.positions =
       result.rest.positions + solid.unit() * (surface.positions - solid.inner_vertices());
+  if (spec.fill_gaps)
+    stages.run("fill gaps", [&] { fill_gaps(solid, *field, spec.surface, u, result); });
 
   result.particles = solid.particles();
   result.particles.positions = solid.restored(solid.particles().positions);

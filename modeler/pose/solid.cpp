@@ -46,16 +46,18 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::vector<bool> vertices_of_faces(const Mesh& mesh) {
-  std::vector<bool> used(static_cast<std::size_t>(mesh.positions.rows()), false);
+/// Those that faces use; all of them in a cloud.
+std::vector<bool> vertices_of_surface(const Mesh& mesh) {
+  std::vector<bool> used(static_cast<std::size_t>(mesh.positions.rows()), mesh.face_count() == 0);
   for (const int vertex : mesh.face_vertices) used[static_cast<std::size_t>(vertex)] = true;
   return used;
 }
 
-/// Of the vertices that faces use: others would distort every percent and every weight.
-Box box_of_faces(const Mesh& mesh) {
+/// Of the used vertices: others would distort every percent and every weight.
+Box box_of(const Mesh& mesh, const std::vector<bool>& used) {
   Box box;
-  for (const int vertex : mesh.face_vertices) box.extend(mesh.positions.row(vertex).transpose());
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i]) box.extend(mesh.positions.row(static_cast<Index>(i)).transpose());
   return box;
 }
 
@@ -70,7 +72,7 @@ ParticleSamplingOptions sampling_options(const ShapeSpec& spec, double diagonal,
 
 Mesh sized(const Mesh& mesh, const ShapeSpec& spec) {
   if (!spec.size) return mesh;
-  const Box box = box_of_faces(mesh);
+  const Box box = box_of(mesh, vertices_of_surface(mesh));
   const double scale = resolve(*spec.size, box.diagonal()) / box.diagonal();
   Mesh sized = mesh;
   sized.positions = (mesh.positions.rowwise() - box.center().transpose()) * scale;
@@ -79,33 +81,47 @@ Mesh sized(const Mesh& mesh, const ShapeSpec& spec) {
 
 Solid::Solid(const Mesh& mesh, const ShapeSpec& spec)
     : triangulation_(triangulate(mesh)),
-      used_(vertices_of_faces(mesh)),
-      box_(box_of_faces(mesh)),
+      used_(vertices_of_surface(mesh)),
+      box_(box_of(mesh, used_)),
       origin_(box_.center().transpose()),
       unit_(box_.diagonal()) {
-  if (triangulation_.triangles.rows() == 0)
-    throw ShapeError(
-        "the shape has no faces, so it encloses no solid; point clouds cannot be posed yet");
   if (!(unit_ > 0)) throw ShapeError("zero volume: all vertices of the shape lie at one place");
   if (!std::isfinite(unit_)) throw ShapeError("the shape is too large to compute with");
   vertices_ = scaled(mesh.positions);
   sample(mesh, spec);
-  surface_ = sample_surface(vertices_, triangulation_.triangles,
-                            sample_width_over_spacing * particles_.spacing);
+  find_surface();
+}
+
+void Solid::find_surface() {
+  const Triangles& triangles = triangulation_.triangles;
+  surface_ =
+      cloud_ ? cloud_samples(vertices_, *cloud_)
+             : sample_surface(vertices_, triangles, sample_width_over_spacing * particles_.spacing);
   inner_vertices_ = vertices_;
-  if (graph_ && graph_->parted()) {
-    const Triangles& triangles = triangulation_.triangles;
+  if (!graph_ || !graph_->parted()) return;
+  if (cloud_) {
+    inner_vertices_ = points_beneath(vertices_, *cloud_, beneath);
+    surface_.positions = cloud_samples(inner_vertices_, *cloud_).positions;
+  } else {
     inner_vertices_ = vertices_beneath(vertices_, triangles, beneath);
     surface_.positions = samples_beneath(surface_, vertices_, triangles, beneath);
   }
+}
+
+void Solid::keep(const CloudSurface& cloud, const Mesh& mesh) {
+  used_.assign(used_.size(), false);
+  for (const int point : cloud.points) used_[static_cast<std::size_t>(point)] = true;
+  box_ = box_of(mesh, used_);
+  cloud_ = cloud;
 }
 
 void Solid::sample(const Mesh& mesh, const ShapeSpec& spec) {
   SolidRegion solid = make_region(mesh, vertices_, triangulation_.triangles);
   notes_ = std::move(solid.notes);
   reasons_ = std::move(solid.reasons);
+  if (solid.cloud) keep(*solid.cloud, mesh);
   const long unused = std::count(used_.begin(), used_.end(), false);
-  if (unused > 0)
+  if (unused > 0 && !cloud_)
     notes_.push_back(fmt::format("{} vertices that no face uses follow the solid", unused));
   region_ = std::move(solid.region);
   boundary_ = std::move(solid.boundary);

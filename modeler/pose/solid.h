@@ -1,10 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "io/mesh/mesh.h"
 #include "io/scene/shape_spec.h"
 #include "modeler/domain/carried_boundary.h"
+#include "modeler/domain/cloud_surface.h"
 #include "modeler/domain/inside_graph.h"
 #include "modeler/domain/surface_samples.h"
 #include "solver/core/report.h"
@@ -25,7 +27,7 @@ struct Quadrature {
 /// nothing depends on units or on where it lies, filled with particles, and with a field.
 class Solid {
  public:
-  /// `mesh` bounds a solid. Errors: ShapeError.
+  /// `mesh`, or a cloud of points, bounds a solid. Errors: ShapeError.
   Solid(const Mesh& mesh, const ShapeSpec& spec);
 
   /// From the user's coordinates to ours and back.
@@ -48,7 +50,8 @@ class Solid {
   const std::shared_ptr<const Detours>& detours() const { return detours_; }
   double coupling_seconds() const { return coupling_seconds_; }  ///< that finding them took
 
-  const std::vector<bool>& used_vertices() const { return used_; }  ///< by any face
+  /// By any face; of a cloud, those that lie on the surface.
+  const std::vector<bool>& used_vertices() const { return used_; }
   const std::vector<std::string>& notes() const { return notes_; }
   const std::vector<Reason>& reasons() const { return reasons_; }  ///< that degrade any result
   Vec3 origin() const { return origin_.transpose(); }
@@ -65,6 +68,9 @@ class Solid {
 
  private:
   void sample(const Mesh& mesh, const ShapeSpec& spec);
+  /// Leaves the points out that do not lie on the surface.
+  void keep(const CloudSurface& cloud, const Mesh& mesh);
+  void find_surface();
   /// How the solid hangs together inside; particles are added where none reaches by ways inside.
   void couple_inside(const VolumeSamples& samples);
   DetoursWithin detours_within_supports();
@@ -78,8 +84,9 @@ class Solid {
   double unit_;
   Points vertices_, inner_vertices_;
   std::unique_ptr<const Region> region_;
-  CarriedBoundary boundary_;
   std::shared_ptr<const InsideGraph> graph_;  ///< null where ways are straight
+  CarriedBoundary boundary_;
+  std::optional<CloudSurface> cloud_;
   SurfaceSamples surface_;
   Particles particles_;
   std::shared_ptr<const Detours> detours_;

@@ -18,6 +18,7 @@ struct Case {
 };
 
 std::span<const Case> moment_matrix_cases();  ///< A: moving least squares
+std::span<const Case> geometry_cases();       ///< B: shapes as they come
 std::span<const Case> pose_cases();           ///< C: poses
 std::span<const Case> input_cases();          ///< K: inputs and outputs
 
