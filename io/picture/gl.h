@@ -25,6 +25,7 @@ struct Gl {
   decltype(&OSMesaDestroyContext) destroy_context = load("OSMesaDestroyContext");
   decltype(&OSMesaMakeCurrent) make_current = load("OSMesaMakeCurrent");
 
+  decltype(&glActiveTexture) active_texture = load("glActiveTexture");
   decltype(&glAttachShader) attach_shader = load("glAttachShader");
   decltype(&glBindBuffer) bind_buffer = load("glBindBuffer");
   decltype(&glBindFramebuffer) bind_framebuffer = load("glBindFramebuffer");
@@ -35,6 +36,7 @@ struct Gl {
   decltype(&glBufferData) buffer_data = load("glBufferData");
   decltype(&glCheckFramebufferStatus) check_framebuffer = load("glCheckFramebufferStatus");
   decltype(&glClear) clear = load("glClear");
+  decltype(&glColorMask) color_mask = load("glColorMask");
   decltype(&glCompileShader) compile_shader = load("glCompileShader");
   decltype(&glCreateProgram) create_program = load("glCreateProgram");
   decltype(&glCreateShader) create_shader = load("glCreateShader");
@@ -45,12 +47,16 @@ struct Gl {
   decltype(&glDeleteShader) delete_shader = load("glDeleteShader");
   decltype(&glDeleteTextures) delete_textures = load("glDeleteTextures");
   decltype(&glDeleteVertexArrays) delete_vertex_arrays = load("glDeleteVertexArrays");
+  decltype(&glDepthFunc) depth_function = load("glDepthFunc");
+  decltype(&glDepthMask) depth_mask = load("glDepthMask");
   decltype(&glDisable) disable = load("glDisable");
   decltype(&glDrawArrays) draw_arrays = load("glDrawArrays");
+  decltype(&glDrawBuffers) draw_buffers = load("glDrawBuffers");
   decltype(&glDrawElements) draw_elements = load("glDrawElements");
   decltype(&glEnable) enable = load("glEnable");
   decltype(&glEnableVertexAttribArray) enable_attribute = load("glEnableVertexAttribArray");
   decltype(&glFramebufferRenderbuffer) attach_renderbuffer = load("glFramebufferRenderbuffer");
+  decltype(&glFramebufferTexture2D) attach_texture = load("glFramebufferTexture2D");
   decltype(&glGenBuffers) gen_buffers = load("glGenBuffers");
   decltype(&glGenFramebuffers) gen_framebuffers = load("glGenFramebuffers");
   decltype(&glGenRenderbuffers) gen_renderbuffers = load("glGenRenderbuffers");
@@ -67,7 +73,9 @@ struct Gl {
   decltype(&glShaderSource) shader_source = load("glShaderSource");
   decltype(&glTexImage2D) texture_image = load("glTexImage2D");
   decltype(&glTexParameteri) texture_parameter = load("glTexParameteri");
+  decltype(&glUniform1i) uniform_1i = load("glUniform1i");
   decltype(&glUniform1f) uniform_1f = load("glUniform1f");
+  decltype(&glUniform4fv) uniform_4fv = load("glUniform4fv");
   decltype(&glUniformMatrix3fv) uniform_matrix3 = load("glUniformMatrix3fv");
   decltype(&glUniformMatrix4fv) uniform_matrix4 = load("glUniformMatrix4fv");
   decltype(&glUseProgram) use_program = load("glUseProgram");

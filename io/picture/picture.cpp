@@ -48,6 +48,21 @@ void draw_labels(const std::vector<PictureItem>& items, const View& view, int sc
   }
 }
 
+void draw_notes(const std::vector<PictureItem>& items, const View& view, int scale,
+                Picture& picture) {
+  int left = 0;
+  for (const PictureItem& item : items) {
+    for (const Note& note : item.notes) {
+      const Eigen::Vector2d middle = pixel_of(note.position, view);
+      draw_label({note.text, left + static_cast<int>(std::lround(middle.x())),
+                  static_cast<int>(std::lround(middle.y())) - glyph_height * scale / 2,
+                  view.column_width, scale},
+                 picture);
+    }
+    left += view.column_width;
+  }
+}
+
 }  // namespace
 
 Picture render(const std::vector<PictureItem>& items, const PictureOptions& options) {
@@ -64,11 +79,16 @@ Picture render(const std::vector<PictureItem>& items, const PictureOptions& opti
   for (int i = 0; i < columns; ++i)
     painter.draw_shape(drawings[i], view, {i, options.ground_shadow});
   const std::vector<float> depth = painter.depth(view);  // markers throw no shade on the shape
-  for (int i = 0; i < columns; ++i) painter.draw_markers(drawings[i], view, i);
+  for (int i = 0; i < columns; ++i) {
+    painter.draw_markers(drawings[i], view, i);
+    painter.draw_lines(drawings[i], view, i);
+    painter.draw_veil(drawings[i], view, i);
+  }
 
   Picture picture = painter.picture();
   shade_hollows(depth, picture);
   draw_labels(items, view, label_scale, picture);
+  draw_notes(items, view, label_scale, picture);
   return picture;
 }
 

@@ -19,7 +19,35 @@ using Color = std::array<float, 3>;
 struct Markers {
   Points positions = {};  ///< [m], n×3
   Color color{1, 0, 0};
-  double radius = 0;  ///< [m]; 0: a share of the picture's size that reads well
+  double radius = 0;               ///< [m]; 0: a share of the picture's size that reads well
+  std::vector<Color> colors = {};  ///< one a point; empty: `color` for all
+};
+
+/// Straight lines: edges of cells, axes, rings.
+struct Lines {
+  Points ends = {};  ///< [m], 2n×3: the two ends of one line after the other
+  Color color{0.2f, 0.2f, 0.2f};
+  double width = 1.5;              ///< [px]
+  std::vector<Color> colors = {};  ///< one a line; empty: `color` for all
+};
+
+/// A piece of surface in colours that no light changes: a slice coloured by a field.
+struct Sheet {
+  Points positions = {};  ///< [m], n×3
+  Triangles triangles = {};
+  std::vector<Color> colors = {};  ///< n
+};
+
+/// Short text in space, in front of everything.
+struct Note {
+  Vec3 position = Vec3::Zero();  ///< [m], of its middle
+  std::string text = {};
+};
+
+/// The points x with normal·x > offset.
+struct HalfSpace {
+  Vec3 normal = Vec3::Zero();
+  double offset = 0;  ///< [m] where the normal is of unit length
 };
 
 /// One view of the picture, drawn left to right. A mesh without faces is drawn as small balls.
@@ -28,6 +56,11 @@ struct PictureItem {
   std::vector<Markers> markers = {};
   std::string label = {};                 ///< small text below the view
   std::vector<Color> vertex_colors = {};  ///< empty: the mesh's own, else plain clay
+  double opacity = 1;  ///< of the surface, above 0; below 1 what lies inside shows through
+  std::optional<HalfSpace> cut = {};  ///< what of the surface is left out
+  std::vector<Lines> lines = {};
+  std::vector<Sheet> sheets = {};
+  std::vector<Note> notes = {};
 };
 
 /// An orthographic camera that fits all items into the picture.

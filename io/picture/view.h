@@ -20,14 +20,23 @@ struct View {
   int label_height = 0;         ///< [px] of its lower edge, where the labels stand
 };
 
+/// Rows to the right, up, towards the viewer. Without azimuth and elevation the camera looks along
+/// −z where y is up and along +y where z is, with x to the right in both.
+Mat3 camera_rotation(const Camera& camera);
+
 /// Turns the camera as asked and chooses the scale that fits all drawings into their columns.
 View fit_view(const std::vector<Drawing>& drawings, const PictureOptions& options,
               int label_height);
 
-/// The balls' radius in pixels: their own, or one that suits their number and spread.
-double ball_radius_px(const Drawing& drawing, const DrawnBalls& balls, const View& view);
+/// Where x [m] is drawn in its column, from the left and from the top [px].
+Eigen::Vector2d pixel_of(const Vec3& x, const View& view);
 
-/// [m] → OpenGL's clip coordinates of a column.
-Eigen::Matrix4d clip_from_world(const View& view);
+/// A radius in pixels for points that have none of their own: one that suits their number and
+/// spread.
+double suitable_radius_px(const Drawing& drawing, const std::vector<DrawnVertex>& points,
+                          const View& view);
+
+/// Coordinates of a shape → OpenGL's clip coordinates of a column, by way of [m].
+Eigen::Matrix4d clip_from(const View& view, const Eigen::Matrix4d& world_from_shape);
 
 }  // namespace supple

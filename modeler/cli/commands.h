@@ -13,6 +13,7 @@ using Words = std::span<const std::string>;
 // One a command, given the words behind its name. They return an exit code and throw what
 // exit codes are made of in main.cpp.
 int run_pose(Words words);
+int run_inspect(Words words);
 int run_render(Words words);
 int run_plan(Words words);
 

@@ -27,9 +27,9 @@ struct Command {
 
 constexpr std::array<Command, 9> commands{{
     {"pose", run_pose, "deform a shape by handles"},
+    {"inspect", run_inspect, "what a shape file holds, and whether it can be posed"},
     {"render", run_render, "draw a mesh into a picture"},
     {"plan", run_plan, "which effects a scene calls for, and why"},
-    {"inspect", nullptr, ""},
     {"animate", nullptr, ""},
     {"simulate", nullptr, ""},
     {"modes", nullptr, ""},

@@ -1,4 +1,3 @@
-#include <chrono>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -6,9 +5,11 @@
 #include "io/mesh/mesh_files.h"
 #include "modeler/cli/commands.h"
 #include "modeler/cli/interrupt.h"
+#include "modeler/cli/likely_size.h"
 #include "modeler/cli/pose_arguments.h"
 #include "modeler/cli/progress_line.h"
 #include "modeler/cli/report_json.h"
+#include "modeler/cli/stopwatch.h"
 #include "modeler/cli/summary.h"
 #include "modeler/domain/shape_error.h"
 #include "solver/core/parallel.h"
@@ -16,44 +17,7 @@
 namespace supple {
 namespace {
 
-/// Bounding-box diagonals that a thing which is posed is likely to have [m].
-constexpr double smallest_likely = 1e-3, greatest_likely = 1e3;
-
 constexpr Color held_color{0.10f, 0.30f, 0.75f}, moved_color{0.85f, 0.05f, 0.05f};
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-double metres(FileUnit unit) {
-  switch (unit) {
-    case FileUnit::metre:
-      return 1;
-    case FileUnit::centimetre:
-      return 0.01;
-    case FileUnit::millimetre:
-      return 0.001;
-    case FileUnit::inch:
-      return 0.0254;
-  }
-  return 1;
-}
-
-/// A size that hints at other units than those of the scene.
-std::vector<std::string> size_notes(const Mesh& shape, const ShapeSpec& spec) {
-  const double size = metres(spec.units) * bounding_box(shape.positions).diagonal();
-  if (size >= smallest_likely && size <= greatest_likely) return {};
-  return {
-      fmt::format("the shape is {:.3g} m large, which is unlikely; shape.units says what one "
-                  "unit of the file is (m, cm, mm, in)",
-                  size)};
-}
 
 /// The shape as the scene names it: a file given as points is one, whatever faces it holds.
 Mesh read_shape(const Scene& scene) {
@@ -104,6 +68,8 @@ void write_outputs(const PoseArguments& arguments, ProgressLine& line, PoseRun& 
   line.show("write", 0);
   InterruptWatch::check();
   if (!arguments.mesh.empty()) {
+    for (std::string& sentence : left_out_by(arguments.mesh, run.result->mesh))
+      run.result->report.notes.push_back(std::move(sentence));
     write_mesh(run.result->mesh, arguments.mesh);
     run.outputs.push_back(arguments.mesh);
   }

@@ -5,6 +5,7 @@
 #include "io/mesh/mesh_files.h"
 #include "io/output_file.h"
 #include "modeler/cli/commands.h"
+#include "modeler/cli/inside_arguments.h"
 #include "modeler/cli/interrupt.h"
 #include "modeler/cli/picture_arguments.h"
 #include "modeler/cli/run_arguments.h"
@@ -15,26 +16,32 @@ namespace {
 
 constexpr const char* examples = R"(Examples:
   supple render bunny.obj -o bunny.png
-  supple render bunny.obj -o bunny.png --camera 120,20,1.5 --size 800x600)";
+  supple render bunny.obj -o bunny.png --camera 120,20,1.5 --size 800x600
+  supple render bunny.obj -o inside.png --show particles --particles 500)";
 
 }  // namespace
 
 int run_render(Words words) {
   std::string file, output;
+  InsideArguments inside;
   PictureArguments view;
   RunArguments run;
   CommandLine line("supple render", "Draws a mesh into a picture.");
-  line.positional("FILE", fmt::format("a mesh ({})", mesh_formats()),
+  line.positional("FILE", fmt::format("a mesh or a point cloud ({})", mesh_formats()),
                   [&](const std::string& value) { file = value; });
   line.begin_group("Output");
   line.option("-o,--output", {"FILE.png", "the picture; needed"},
               [&](const std::string& value) { output = value; });
+  inside.declare(line);
   view.declare(line);
   run.declare(line);
   line.examples(examples);
   if (!line.parse(words)) return exit_done;
   if (output.empty()) throw UsageError("nothing to write; give -o FILE.png");
   check_picture_name(output, "-o");
+  const ShapeSpec spec = inside.spec();
+  if (inside.has_particles() && !inside.shown())
+    throw UsageError("--particles and --spacing: only together with --show");
 
   const InterruptWatch interrupts;
   const ThreadLimit threads(run.threads);
@@ -44,6 +51,10 @@ int run_render(Words words) {
   PictureItem item;
   item.mesh = &mesh;
   item.label = std::filesystem::path(file).filename().string();
+  if (inside.shown()) {
+    Solid solid(mesh, spec);
+    show_inside(*inside.shown(), solid, spec, view.options().camera, item);
+  }
   const Picture picture = render({item}, view.options());
   InterruptWatch::check();
   write_png(picture, output);

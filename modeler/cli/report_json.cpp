@@ -2,21 +2,11 @@
 
 #include <fstream>
 
-#include <nlohmann/json.hpp>
-
 #include "io/output_file.h"
+#include "modeler/cli/json_text.h"
 
 namespace supple {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr int indent = 2;
-
-/// Names may hold any bytes; those that are not UTF-8 become U+FFFD.
-std::string dumped(const Json& json) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
-}
 
 /// Greatest memory that the program held so far [bytes].
 long peak_memory() {
@@ -111,13 +101,13 @@ std::string report_json(const PoseRun& run) {
   json["seconds"] = seconds_json(run);
   if (run.result) add_result(*run.result, json);
   json["memory_peak_bytes"] = peak_memory();
-  return dumped(json);
+  return json_text(json);
 }
 
 std::string plan_json(const Plan& plan) {
   Json effects = effects_json(plan.effects);
   for (Json& active : effects["active"]) active.erase("seconds");
-  return dumped({{"command", "plan"}, {"version", SUPPLE_VERSION}, {"effects", effects}});
+  return json_text({{"command", "plan"}, {"version", SUPPLE_VERSION}, {"effects", effects}});
 }
 
 void write_text(const std::string& text, const std::filesystem::path& path) {

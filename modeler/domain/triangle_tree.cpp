@@ -60,6 +60,12 @@ bool touches(const Box& box, const Vec3& a, const Vec3& inverse) {
   return enter <= leave;
 }
 
+bool meet(const Box& a, const Box& b) {
+  for (int k = 0; k < 3; ++k)
+    if (a.lower[k] > b.upper[k] || b.lower[k] > a.upper[k]) return false;
+  return true;
+}
+
 /// By the volumes of the tetrahedra that the segment spans with the triangle's edges.
 bool passes(const std::array<Vec3, 3>& corners, const Vec3& a, const Vec3& b, Crossing& crossing) {
   const auto& [p, q, r] = corners;
@@ -222,6 +228,29 @@ void TriangleTree::crossings(const Vec3& a, const Vec3& b, std::vector<Crossing>
     for (int t = node.first; t < node.first + node.count; ++t) {
       Crossing crossing{0, triangles_[t], false};
       if (passes(corners_[t], a, b, crossing)) found.push_back(crossing);
+    }
+  }
+}
+
+void TriangleTree::meeting(const Box& box, std::vector<int>& found) const {
+  found.clear();
+  if (nodes_.empty()) return;
+  std::array<int, stack_size> stack;
+  int size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const int at = stack[--size];
+    const Node& node = nodes_[at];
+    if (!meet(node.box, box)) continue;
+    if (!node.leaf()) {
+      stack[size++] = node.second;
+      stack[size++] = at + 1;
+      continue;
+    }
+    for (int t = node.first; t < node.first + node.count; ++t) {
+      const auto& [p, q, r] = corners_[t];
+      if (meet({p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r)}, box))
+        found.push_back(triangles_[t]);
     }
   }
 }

@@ -37,6 +37,9 @@ class TriangleTree {
   /// edge passes through each triangle at that edge.
   void crossings(const Vec3& a, const Vec3& b, std::vector<Crossing>& found) const;
 
+  /// The triangles whose boxes meet `box`, in no order.
+  void meeting(const Box& box, std::vector<int>& found) const;
+
   /// Σ solid angles / 4π. Far nodes count by the first two terms of their expansion, near
   /// triangles exactly (Barill et al. 2018, Eq. 4–13; van Oosterom & Strackee 1983). Off by less
   /// than 0.1 on closed surfaces: enough to tell one integer from the next.

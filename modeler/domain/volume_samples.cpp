@@ -12,29 +12,6 @@ namespace {
 
 constexpr Index cells_a_chunk = 64;
 
-double distance(const RegionCell& cell) {
-  return (cell.boundary_point - cell.center).norm();
-}
-
-/// True where no boundary lies between the cell's centre and x.
-bool on_one_side(const RegionCell& cell, const Vec3& x) {
-  return (x - cell.center).norm() < distance(cell);
-}
-
-/// Asks the region about a cell; `known` are cells already asked that lie near it.
-void look_at(const Region& region, const std::vector<RegionCell>& known, RegionCell& cell) {
-  cell.boundary_point = region.closest_boundary_point(cell.center);
-  const auto near = std::find_if(known.begin(), known.end(), [&](const RegionCell& other) {
-    return on_one_side(other, cell.center);
-  });
-  cell.center_inside = near != known.end() ? near->center_inside : region.contains(cell.center);
-  cell.inner = cell.center_inside && distance(cell) > cell.reach();
-}
-
-bool touches_region(const RegionCell& cell) {
-  return cell.inner || distance(cell) <= cell.reach();
-}
-
 /// Cubes of one size about the region's box, off its middle so that no shape lines up with them.
 std::vector<RegionCell> root_cells(const Region& region, double width) {
   const Box box = region.bounds();
@@ -71,19 +48,12 @@ struct PlaneCut {
   double reach = 0;  ///< of the whole cell along the normal [m]
 };
 
-/// Unit normal of the boundary at the cell's boundary point.
-Vec3 outward(const RegionCell& cell) {
-  if (distance(cell) <= 0) return Vec3::UnitX();
-  const Vec3 away = (cell.center - cell.boundary_point) / distance(cell);
-  return cell.center_inside ? Vec3(-away) : away;
-}
-
 /// None where the plane passes the cell by.
 std::optional<PlaneCut> plane_cut(const RegionCell& cell) {
   PlaneCut cut;
-  cut.outward = outward(cell);
+  cut.outward = cell.outward();
   cut.reach = 2 * cell.half_width * cut.outward.lpNorm<1>();
-  const double depth = 0.5 * cut.reach + (cell.center_inside ? 1 : -1) * distance(cell);
+  const double depth = 0.5 * cut.reach + (cell.center_inside ? 1 : -1) * cell.distance();
   cut.depth = std::min(depth, cut.reach);
   if (cut.depth <= 0) return std::nullopt;
   return cut;
@@ -98,13 +68,13 @@ class CellSampler {
   void add_inner(const RegionCell& cell, std::uint64_t seed) {
     Random random(seed);
     const Vec3 shift = 0.5 * cell.half_width * random.in_cube(-1, 1);
-    samples_.push_back({cell.center + shift, volume_of(cell)});
+    samples_.push_back({cell.center + shift, cell.volume()});
   }
 
   /// Halves the cell up to `halvings` times where its part does not look cut by a plane.
   void add_cut(const RegionCell& cell, int halvings) {
     if (cell.inner) {
-      samples_.push_back({cell.center, volume_of(cell)});
+      samples_.push_back({cell.center, cell.volume()});
       return;
     }
     const std::optional<PlaneCut> cut = plane_cut(cell);
@@ -112,7 +82,7 @@ class CellSampler {
     const Vec3 middle = cell.boundary_point - 0.5 * cut->depth * cut->outward;
     const double share = cut->depth / cut->reach;
     if (plane_like(cell, middle, 0.5 * cut->depth)) {
-      samples_.push_back({middle, share * volume_of(cell)});
+      samples_.push_back({middle, share * cell.volume()});
     } else if (halvings > 0) {
       std::vector<RegionCell> halves;
       append_halves(region_, cell, halves);
@@ -123,12 +93,10 @@ class CellSampler {
   }
 
  private:
-  static double volume_of(const RegionCell& cell) { return std::pow(2 * cell.half_width, 3); }
-
   bool plane_like(const RegionCell& cell, const Vec3& middle, double expected_depth) const {
     const double depth = (region_.closest_boundary_point(middle) - middle).norm();
     if (depth < 0.7 * expected_depth) return false;
-    return (cell.center_inside && on_one_side(cell, middle)) || region_.contains(middle);
+    return (cell.center_inside && cell.on_side_of_center(middle)) || region_.contains(middle);
   }
 
   /// A part thinner than the cell: t = δ + distance to its other side, from a point δ inside.
@@ -138,7 +106,7 @@ class CellSampler {
     const double depth = (*inside - cell.boundary_point).norm();
     const double beyond = (region_.closest_boundary_point(*inside) - *inside).norm();
     const double thickness = std::min(cut.depth, depth + beyond);
-    samples_.push_back({*inside, thickness / cut.reach * volume_of(cell)});
+    samples_.push_back({*inside, thickness / cut.reach * cell.volume()});
   }
 
   const Region& region_;
@@ -146,28 +114,6 @@ class CellSampler {
 };
 
 }  // namespace
-
-void append_halves(const Region& region, const RegionCell& cell, std::vector<RegionCell>& cells) {
-  std::vector<RegionCell> known = {cell};
-  for (int octant = 0; octant < 8; ++octant) {
-    RegionCell half = cell;
-    half.half_width = 0.5 * cell.half_width;
-    for (int axis = 0; axis < 3; ++axis)
-      half.center[axis] += (octant >> axis & 1 ? 1 : -1) * half.half_width;
-    if (!cell.inner) look_at(region, known, half);
-    if (touches_region(half)) cells.push_back(half);
-    known.push_back(half);
-  }
-}
-
-std::optional<Vec3> inside_at_boundary(const Region& region, const RegionCell& cell) {
-  const Vec3 inward = -outward(cell);
-  for (double depth = cell.half_width; depth > 1e-6 * cell.half_width; depth *= 0.5) {
-    const Vec3 point = cell.boundary_point + depth * inward;
-    if (region.contains(point)) return point;
-  }
-  return std::nullopt;
-}
 
 VolumeSamples sample_volume(const Region& region, const VolumeSampleOptions& options) {
   VolumeSamples result;

@@ -1,24 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
+#include "modeler/domain/region_cell.h"
 #include "solver/core/describe.h"
 #include "solver/core/rest_shape.h"
 
 namespace supple {
-
-/// A cube that holds a part of a region.
-struct RegionCell {
-  Vec3 center;
-  double half_width = 0;  ///< half an edge [m]
-  bool inner = false;     ///< all of it is inside
-  bool center_inside = false;
-  Vec3 boundary_point;  ///< nearest to the centre; unset in inner cells
-
-  double reach() const { return 1.7320508075688772 * half_width; }  ///< centre to corner [m]
-};
 
 /// Points that stand for a region's volume.
 struct VolumeSamples {
@@ -44,12 +33,5 @@ struct VolumeSampleOptions {
 /// taken for cut by a plane; where they are not (edges, parts thinner than a cell), they are
 /// halved once more, and a part that still is thinner counts with its thickness.
 VolumeSamples sample_volume(const Region& region, const VolumeSampleOptions& options);
-
-/// The eight halves of a cell that touch the region, appended to `cells`.
-void append_halves(const Region& region, const RegionCell& cell, std::vector<RegionCell>& cells);
-
-/// A point inside the region, straight below the boundary point of a cell that is not inner.
-/// None where the region is thinner there than a millionth of the cell.
-std::optional<Vec3> inside_at_boundary(const Region& region, const RegionCell& cell);
 
 }  // namespace supple

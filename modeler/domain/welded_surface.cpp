@@ -44,39 +44,45 @@ WeldedSurface weld(const Points& positions, const Triangles& triangles) {
     surface.positions.row(i) = positions.row(firsts[i]);
 
   Triangles welded = triangles.unaryExpr([&](int vertex) { return numbers[vertex]; });
-  std::vector<Index> kept;
+  std::vector<int> kept;
   for (Index t = 0; t < welded.rows(); ++t)
     if (welded(t, 0) != welded(t, 1) && welded(t, 1) != welded(t, 2) &&
         welded(t, 2) != welded(t, 0))
-      kept.push_back(t);
+      kept.push_back(static_cast<int>(t));
   surface.triangles = rows_of(welded, kept);
   surface.originals = std::move(firsts);
   return surface;
 }
 
-Triangles rows_of(const Triangles& triangles, const std::vector<Index>& rows) {
-  Triangles result(static_cast<Index>(rows.size()), 3);
-  for (Index i = 0; i < result.rows(); ++i) result.row(i) = triangles.row(rows[i]);
-  return result;
+std::vector<int> first_at_position(const Points& positions) {
+  std::vector<int> firsts;
+  std::vector<int> numbers = number_positions(positions, firsts);
+  for (int& number : numbers) number = firsts[number];
+  return numbers;
 }
 
-Triangles with_area(const Points& positions, const Triangles& triangles) {
-  std::vector<Index> kept;
+std::vector<int> rows_with_area(const Points& positions, const Triangles& triangles) {
+  std::vector<int> kept;
   for (Index t = 0; t < triangles.rows(); ++t) {
     const Vec3 a = positions.row(triangles(t, 0));
     const double ab = (positions.row(triangles(t, 1)).transpose() - a).norm();
     const double ac = (positions.row(triangles(t, 2)).transpose() - a).norm();
     // Below the rounding of a cross product of edges this long, an area is none.
     const double rounding = 1e-15 * ab * ac;
-    if (double_area_normal(positions, triangles, t).norm() > rounding) kept.push_back(t);
+    if (double_area_normal(positions, triangles, t).norm() > rounding)
+      kept.push_back(static_cast<int>(t));
   }
-  return rows_of(triangles, kept);
+  return kept;
+}
+
+Triangles with_area(const Points& positions, const Triangles& triangles) {
+  return rows_of(triangles, rows_with_area(positions, triangles));
 }
 
 Triangles without_duplicates(const Triangles& triangles) {
   struct Turned {
     std::array<int, 3> vertices;  // the least first
-    Index row;
+    int row;
     auto operator<=>(const Turned&) const = default;
   };
   std::vector<Turned> all(triangles.rows());
@@ -84,10 +90,10 @@ Triangles without_duplicates(const Triangles& triangles) {
     int least;
     triangles.row(t).minCoeff(&least);
     for (int k = 0; k < 3; ++k) all[t].vertices[k] = triangles(t, (least + k) % 3);
-    all[t].row = t;
+    all[t].row = static_cast<int>(t);
   }
   std::sort(all.begin(), all.end());
-  std::vector<Index> kept;
+  std::vector<int> kept;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (i == 0 || all[i].vertices != all[i - 1].vertices) kept.push_back(all[i].row);
   std::sort(kept.begin(), kept.end());
@@ -95,14 +101,14 @@ Triangles without_duplicates(const Triangles& triangles) {
 }
 
 std::vector<int> connected_parts(const Triangles& triangles) {
-  const int vertices = triangles.size() > 0 ? triangles.maxCoeff() + 1 : 0;
-  DisjointSets sets(vertices);
+  const std::size_t vertices = triangles.size() > 0 ? triangles.maxCoeff() + 1 : 0;
+  DisjointSets joined(vertices);
   for (Index t = 0; t < triangles.rows(); ++t)
-    for (int k = 1; k < 3; ++k) sets.unite(triangles(t, 0), triangles(t, k));
+    for (int k = 1; k < 3; ++k) joined.unite(triangles(t, k), triangles(t, 0));
   std::vector<int> numbers(vertices, -1), parts(triangles.rows());
   int count = 0;
   for (Index t = 0; t < triangles.rows(); ++t) {
-    int& number = numbers[sets.root(triangles(t, 0))];
+    int& number = numbers[joined.root(triangles(t, 0))];
     if (number < 0) number = count++;
     parts[t] = number;
   }

@@ -14,6 +14,12 @@ struct WeldedSurface {
 };
 WeldedSurface weld(const Points& positions, const Triangles& triangles);
 
+/// For each vertex the first one at the same position.
+std::vector<int> first_at_position(const Points& positions);
+
+/// Numbers of the triangles that have an area, ascending.
+std::vector<int> rows_with_area(const Points& positions, const Triangles& triangles);
+
 /// The triangles that have an area.
 Triangles with_area(const Points& positions, const Triangles& triangles);
 
@@ -21,7 +27,10 @@ Triangles with_area(const Points& positions, const Triangles& triangles);
 Triangles without_duplicates(const Triangles& triangles);
 
 /// The triangles of these rows, in the order of `rows`.
-Triangles rows_of(const Triangles& triangles, const std::vector<Index>& rows);
+template <class Row>
+Triangles rows_of(const Triangles& triangles, const std::vector<Row>& rows) {
+  return triangles(rows, Eigen::all);
+}
 
 /// For each triangle the part it is of, from 0: triangles that share vertices are of one part.
 std::vector<int> connected_parts(const Triangles& triangles);

@@ -24,7 +24,7 @@ constexpr double no_energy = 1e-9;
 /// Particles that samples tie to any that the handles reach.
 std::vector<bool> particles_held(const Samples& quadrature, const Samples& handles,
                                  Index particles) {
-  DisjointSets pieces(static_cast<int>(particles));
+  DisjointSets pieces(static_cast<std::size_t>(particles));
   for (Index k = 0; k < quadrature.size(); ++k)
     for (int at = quadrature.row_begin(k); at < quadrature.row_end(k); ++at)
       pieces.unite(quadrature.particles[static_cast<std::size_t>(at)],

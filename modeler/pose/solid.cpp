@@ -76,6 +76,7 @@ Mesh sized(const Mesh& mesh, const ShapeSpec& spec) {
   const double scale = resolve(*spec.size, box.diagonal()) / box.diagonal();
   Mesh sized = mesh;
   sized.positions = (mesh.positions.rowwise() - box.center().transpose()) * scale;
+  sized.radii = mesh.radii * scale;
   return sized;
 }
 

@@ -11,6 +11,7 @@
 #include "io/picture/picture.h"
 #include "io/scene/scene.h"
 #include "modeler/domain/sample_particles.h"
+#include "modeler/domain/self_intersections.h"
 #include "modeler/domain/volume_samples.h"
 #include "solver/field/moving_least_squares.h"
 #include "solver/field/supports.h"
@@ -43,8 +44,8 @@ class EveryOptions : public testing::Test {};
 
 using AllOptions =
     testing::Types<MovingLeastSquaresOptions, SupportOptions, MinimizeOptions,
-                   ParticleSamplingOptions, VolumeSampleOptions, Camera, PictureOptions, ShapeSpec,
-                   TurnSpec, HandleSpec, PoseWeights, PoseSpec, Scene>;
+                   ParticleSamplingOptions, VolumeSampleOptions, SelfIntersectionOptions, Camera,
+                   PictureOptions, ShapeSpec, TurnSpec, HandleSpec, PoseWeights, PoseSpec, Scene>;
 TYPED_TEST_SUITE(EveryOptions, AllOptions);
 
 TYPED_TEST(EveryOptions, DescribesItsMembersWithinTheirBounds) {

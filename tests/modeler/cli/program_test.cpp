@@ -78,7 +78,7 @@ TEST_F(ProgramTest, NamesTheNearestCommand) {
 
 TEST_F(ProgramTest, HelpHasExamplesThatWork) {
   write_mesh(make_bar({0.5, 1, 0.4}, {5, 10, 4}), folder / "bunny.obj");
-  for (const std::string command : {"pose", "render", "plan"}) {
+  for (const std::string command : {"pose", "inspect", "render", "plan"}) {
     const ProgramResult help = run({command, "--help"});
     EXPECT_EQ(help.code, 0);
     std::istringstream lines(help.out);
