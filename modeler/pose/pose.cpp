@@ -169,7 +169,8 @@ void measure_volume(const Solid& solid, const SolidField& field, const Points& u
   for (Index k = 0; k < extra.rows(); ++k) extra.row(k) = samples.position(k, u).transpose();
   const double unit = std::pow(solid.unit(), 3);
   result.volume_before = unit * enclosed_volume(boundary, solid.vertices(), boundary.extra);
-  result.volume_after = unit * enclosed_volume(boundary, surface.positions, extra);
+  const Points moved = solid.vertices() + surface.positions - solid.inner_vertices();
+  result.volume_after = unit * enclosed_volume(boundary, moved, extra);
 }
 
 /// The smallest det F over particles and the surface's vertices, and how many are not positive.

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "modeler/domain/mesh_region.h"
+#include "solver/core/random.h"
 #include "tests/support/shapes.h"
 
 /// Shapes that are hard to fill with particles, and regions of shapes.
@@ -35,6 +36,28 @@ inline Mesh joined(const Mesh& a, const Mesh& b) {
 inline Mesh turned(Mesh mesh) {
   for (std::size_t k = 0; k + 2 < mesh.face_vertices.size(); k += 3)
     std::swap(mesh.face_vertices[k + 1], mesh.face_vertices[k + 2]);
+  return mesh;
+}
+
+/// A triangle mesh without the faces for which `gone` is true of their middle.
+inline Mesh without(const Mesh& mesh, const std::function<bool(const Vec3&)>& gone) {
+  const Triangles triangles = triangles_of(mesh);
+  std::vector<std::vector<int>> kept;
+  for (Index t = 0; t < triangles.rows(); ++t) {
+    const int a = triangles(t, 0), b = triangles(t, 1), c = triangles(t, 2);
+    const Vec3 sum = mesh.positions.row(a) + mesh.positions.row(b) + mesh.positions.row(c);
+    if (!gone(sum / 3)) kept.push_back({a, b, c});
+  }
+  Mesh result = make_mesh({}, kept);
+  result.positions = mesh.positions;
+  return result;
+}
+
+/// Each face of a triangle mesh inside out with this chance.
+inline Mesh turned_at_random(Mesh mesh, double chance, std::uint64_t seed) {
+  Random random(seed);
+  for (std::size_t k = 0; k + 2 < mesh.face_vertices.size(); k += 3)
+    if (random.uniform() < chance) std::swap(mesh.face_vertices[k + 1], mesh.face_vertices[k + 2]);
   return mesh;
 }
 

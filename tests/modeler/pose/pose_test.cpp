@@ -220,9 +220,9 @@ TEST(Pose, EveryGradientAndSupportPoses) {
 
 TEST(Pose, SaysWhatIsWrongWithAShape) {
   const Scene scene = scene_with("  handles:\n    - fix: z<10%\n");
-  Mesh open = make_quad_bar({1, 1, 1}, {2, 2, 2});
-  open.face_starts.pop_back();
-  open.face_vertices.resize(open.face_vertices.size() - 4);
+  Mesh open = make_quad_bar({1, 1, 1}, {1, 1, 1});
+  open.face_starts.resize(4);
+  open.face_vertices.resize(12);
   EXPECT_THROW(pose(open, scene), ShapeError);
   Mesh cloud = open;
   cloud.face_starts = {0};
