@@ -151,12 +151,18 @@ class Polygonizer {
     return 7 * static_cast<std::size_t>(node) + static_cast<std::size_t>(edge) - 1;
   }
 
-  /// Bisects the edge, then takes the value for linear: the jump at a piece of the input lies
-  /// within what is left.
+  /// Where the edge passes through the input once; else bisects it, then takes the value for
+  /// linear: the jump at a piece of the input lies within what is left.
   void find(Root& root) const {
     Index ends[2] = {root.node, grid_.next(root.node, root.edge)};
     if (!inside(ends[0])) std::swap(ends[0], ends[1]);
     Vec3 in = grid_.position(ends[0]), out = grid_.position(ends[1]);
+    const Passage passage = region_.passage ? region_.passage(in, out) : Passage{2, 0};
+    if (passage.times == 1) {
+      root.position = in + passage.share * (out - in);
+      root.on_input = true;
+      return;
+    }
     double value_in = values_[static_cast<std::size_t>(ends[0])];
     double value_out = values_[static_cast<std::size_t>(ends[1])];
     for (int step = 0; step < bisections; ++step) {
@@ -167,7 +173,8 @@ class Polygonizer {
     }
     const double share = std::clamp((value_in - 0.5) / (value_in - value_out), 0.0, 1.0);
     root.position = in + share * (out - in);
-    root.on_input = region_.distance(root.position) <= reach_ + 0.5 * (out - in).norm();
+    root.on_input =
+        passage.times > 0 && region_.distance(root.position) <= reach_ + (out - in).norm();
   }
 
   /// The triangles within one tetrahedron of the cell at a node, outward.

@@ -8,11 +8,19 @@
 
 namespace supple {
 
+/// How often a straight way passes through the input, and one of the places as a share of it.
+struct Passage {
+  long times = 0;
+  double share = 0;
+};
+
 /// A region known by a value at each place. Several threads may ask.
 struct ImplicitRegion {
   std::function<double(const Vec3&)> value;     ///< > 0.5 inside
   std::function<double(const Vec3&)> distance;  ///< to the nearest piece of the input [m]
-  Box box;                                      ///< of the input [m]; the region lies within it
+  /// Of the way from a to b. Need not be there: an input of points has no inside of its own.
+  std::function<Passage(const Vec3& a, const Vec3& b)> passage;
+  Box box;  ///< of the input [m]; the region lies within it
 };
 
 struct RegionCoverOptions {
@@ -43,8 +51,8 @@ struct RegionCover {
 };
 
 /// The surface value = 0.5 by marching tetrahedra over a grid: six a cell, about its long diagonal.
-/// Roots on the grid's edges are right to a 16th of an edge where the value jumps, better where it
-/// is smooth. Openings narrower than a cell are not seen.
+/// Roots on the grid's edges are right to a 16th of an edge where the value jumps without a passage
+/// being known, better elsewhere. Openings narrower than a cell are not seen.
 RegionCover cover_region(const ImplicitRegion& region, const RegionCoverOptions& options);
 
 /// The same of a boundary that is known: `positions` [m] n×3, closed triangles, and for each

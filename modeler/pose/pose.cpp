@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "modeler/domain/closed_region.h"
 #include "modeler/plan/plan.h"
 #include "modeler/pose/handles.h"
 #include "modeler/pose/pose_solver.h"
@@ -104,33 +103,59 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
   return report;
 }
 
+/// A fine surface has millions of samples: their rows are built for so many at a time.
+constexpr std::size_t samples_at_a_time = 16384;
+
+/// How far each of a handle's surface samples is from where it was led.
+std::vector<double> misses(const Solid& solid, const SolidField& field, const PoseHandle& handle,
+                           const Points& u) {
+  std::vector<double> misses;
+  misses.reserve(handle.selected.size());
+  for (std::size_t begin = 0; begin < handle.selected.size(); begin += samples_at_a_time) {
+    const std::size_t count = std::min(samples_at_a_time, handle.selected.size() - begin);
+    Points rest(static_cast<Index>(count), 3);
+    for (std::size_t k = 0; k < count; ++k)
+      rest.row(static_cast<Index>(k)) = solid.surface().positions.row(handle.selected[begin + k]);
+    const Samples samples = sample_field(field.mls, rest, SampleContent::values);
+    for (Index k = 0; k < rest.rows(); ++k)
+      misses.push_back((samples.position(k, u) - handle.path(rest.row(k).transpose(), 1)).norm());
+  }
+  return misses;
+}
+
 /// Misses of the handles over all their surface samples, over the diagonal.
 void measure_handles(const Solid& solid, const SolidField& field, const HandleSamples& handles,
                      const Points& u, PoseResult& result) {
-  const Points& points = solid.surface().positions;
   double all_squares = 0;
-  long all_samples = 0;
+  std::size_t all_samples = 0;
   for (const PoseHandle& handle : handles.handles()) {
-    Points rest(static_cast<Index>(handle.selected.size()), 3);
-    for (std::size_t k = 0; k < handle.selected.size(); ++k)
-      rest.row(static_cast<Index>(k)) = points.row(handle.selected[k]);
-    const Samples samples = sample_field(field.mls, rest, SampleContent::values);
     HandleResidual residual{handle.spec->place, handle.spec->selection().text,
-                            static_cast<int>(rest.rows()), 0, 0};
+                            static_cast<int>(handle.selected.size()), 0, 0};
     double squares = 0;
-    for (Index k = 0; k < rest.rows(); ++k) {
-      const double miss = (samples.position(k, u) - handle.path(rest.row(k).transpose(), 1)).norm();
+    for (const double miss : misses(solid, field, handle, u)) {
       residual.max_error = std::max(residual.max_error, miss);
       squares += miss * miss;
     }
-    residual.rms_error = std::sqrt(squares / static_cast<double>(rest.rows()));
+    residual.rms_error = std::sqrt(squares / residual.samples);
     result.handle_max_error = std::max(result.handle_max_error, residual.max_error);
     all_squares += squares;
-    all_samples += rest.rows();
+    all_samples += handle.selected.size();
     result.handles.push_back(std::move(residual));
   }
   if (all_samples > 0)
     result.handle_rms_error = std::sqrt(all_squares / static_cast<double>(all_samples));
+}
+
+/// Within the region's boundary, at rest and carried along: the mesh itself may be open.
+void measure_volume(const Solid& solid, const SolidField& field, const Points& u,
+                    const DeformedSurface& surface, PoseResult& result) {
+  const CarriedBoundary& boundary = solid.boundary();
+  const Samples samples = sample_field(field.mls, boundary.extra, SampleContent::values);
+  Points extra(boundary.extra.rows(), 3);
+  for (Index k = 0; k < extra.rows(); ++k) extra.row(k) = samples.position(k, u).transpose();
+  const double unit = std::pow(solid.unit(), 3);
+  result.volume_before = unit * enclosed_volume(boundary, solid.vertices(), boundary.extra);
+  result.volume_after = unit * enclosed_volume(boundary, surface.positions, extra);
 }
 
 /// The smallest det F over particles and the surface's vertices, and how many are not positive.
@@ -178,6 +203,7 @@ constexpr double notable_volume_change = 0.05;
 void judge(const Solid& solid, const SolidField& field, const InversionCount& inversion,
            PoseResult& result) {
   Report& report = result.report;
+  for (const Reason& reason : solid.reasons()) report.degrade(reason);
   if (inversion.inverted > 0)
     report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
                     fmt::format("{} points are turned inside out, the worst with det F = {:.3g}",
@@ -239,8 +265,7 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   result.displacements = solid.unit() * u;
   result.handle_rest = solid.restored(handles.rest());
   result.handle_targets = solid.restored(handles.targets(1));
-  result.volume_before = signed_volume(result.rest.positions, solid.triangulation().triangles);
-  result.volume_after = signed_volume(result.mesh.positions, solid.triangulation().triangles);
+  measure_volume(solid, *field, u, surface, result);
   measure_handles(solid, *field, handles, u, result);
 
   const InversionCount inversion = worst_inversion(solid, *field, u, surface);

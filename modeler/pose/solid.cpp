@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "modeler/domain/closed_region.h"
+#include "modeler/domain/make_region.h"
 #include "modeler/domain/sample_particles.h"
 #include "modeler/domain/shape_error.h"
 #include "solver/field/supports.h"
@@ -64,27 +64,26 @@ Solid::Solid(const Mesh& mesh, const ShapeSpec& spec)
   if (triangulation_.triangles.rows() == 0)
     throw ShapeError(
         "the shape has no faces, so it encloses no solid; point clouds cannot be posed yet");
-  if (!(unit_ > 0)) throw ShapeError("all vertices of the shape lie at one place");
+  if (!(unit_ > 0)) throw ShapeError("zero volume: all vertices of the shape lie at one place");
   if (!std::isfinite(unit_)) throw ShapeError("the shape is too large to compute with");
   vertices_ = scaled(mesh.positions);
-  sample(spec);
+  sample(mesh, spec);
   surface_ = sample_surface(vertices_, triangulation_.triangles,
                             sample_width_over_spacing * particles_.spacing);
 }
 
-void Solid::sample(const ShapeSpec& spec) {
-  auto region = std::make_unique<const ClosedRegion>(vertices_, triangulation_.triangles);
-  const SurfaceDefects& defects = region->defects();
-  if (defects.inside_out)
-    notes_.push_back("the faces point inwards; read as if they pointed outwards");
-  if (defects.degenerate_faces > 0)
-    notes_.push_back(
-        fmt::format("{} faces without area do not bound the solid", defects.degenerate_faces));
+void Solid::sample(const Mesh& mesh, const ShapeSpec& spec) {
+  SolidRegion solid = make_region(mesh, vertices_, triangulation_.triangles);
+  notes_ = std::move(solid.notes);
+  reasons_ = std::move(solid.reasons);
   const long unused = std::count(used_.begin(), used_.end(), false);
   if (unused > 0)
     notes_.push_back(fmt::format("{} vertices that no face uses follow the solid", unused));
-  region_ = std::move(region);
-  particles_ = sample_particles(*region_, sampling_options(spec, unit_, unit_)).particles;
+  particles_ = sample_particles(*solid.region, sampling_options(spec, unit_, unit_)).particles;
+  for (std::string& note : solid.empty_parts(particles_.positions))
+    notes_.push_back(std::move(note));
+  region_ = std::move(solid.region);
+  boundary_ = std::move(solid.boundary);
 }
 
 Points Solid::spread_over_surface(double width) const {

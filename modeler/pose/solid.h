@@ -4,7 +4,9 @@
 
 #include "io/mesh/mesh.h"
 #include "io/scene/shape_spec.h"
+#include "modeler/domain/carried_boundary.h"
 #include "modeler/domain/surface_samples.h"
+#include "solver/core/report.h"
 #include "solver/core/rest_shape.h"
 #include "solver/field/samples.h"
 
@@ -34,10 +36,12 @@ class Solid {
   const Points& vertices() const { return vertices_; }
   const SurfaceSamples& surface() const { return surface_; }
   const Region& region() const { return *region_; }
+  const CarriedBoundary& boundary() const { return boundary_; }
   const Particles& particles() const { return particles_; }
 
   const std::vector<bool>& used_vertices() const { return used_; }  ///< by any face
   const std::vector<std::string>& notes() const { return notes_; }
+  const std::vector<Reason>& reasons() const { return reasons_; }  ///< that degrade any result
   Vec3 origin() const { return origin_.transpose(); }
   double unit() const { return unit_; }
 
@@ -51,7 +55,7 @@ class Solid {
   Quadrature quadrature(QuadratureKind kind) const;
 
  private:
-  void sample(const ShapeSpec& spec);
+  void sample(const Mesh& mesh, const ShapeSpec& spec);
   /// Surface points about `width` apart, in our coordinates.
   Points spread_over_surface(double width) const;
 
@@ -62,9 +66,11 @@ class Solid {
   double unit_;
   Points vertices_;
   std::unique_ptr<const Region> region_;
+  CarriedBoundary boundary_;
   SurfaceSamples surface_;
   Particles particles_;
   std::vector<std::string> notes_;
+  std::vector<Reason> reasons_;
 };
 
 /// `mesh` scaled and centred as `spec.size` asks, or as it is.
