@@ -20,11 +20,10 @@ constexpr double ball_over_diagonal = 0.7;
 constexpr std::size_t least_points = 16;  // for a quadric
 constexpr double enough_neighbors = 0.7;  // of the cloud's, for a quadric
 constexpr std::size_t many_points = 400;  // cells of more are halved unseen
-constexpr std::size_t few_points = 3;     // cells of no more are never halved
+constexpr std::size_t few_shares = 5;     // cells of this part of enough points are never halved
 constexpr int most_levels = 16;
 
-constexpr double agree = 0.2;      // cosine of normals on one side of a thin part
-constexpr double oppose = -0.2;    // the same on its two sides
+constexpr double oppose = -0.2;    // cosine of normals on the two sides of a thin part
 constexpr double far = 3;          // tolerances
 constexpr double most_far = 0.02;  // share of the points beyond
 constexpr double noise_slack = 1.1;
@@ -107,7 +106,7 @@ class PartitionOfUnity::Builder {
 
   Outcome look_at(const Growing& cell) const {
     const std::size_t count = cell.points.size();
-    const bool last = depth_ >= most_levels || count <= few_points;
+    const bool last = depth_ >= most_levels || count <= enough_points_ / few_shares;
     if (!last && count > many_points) return {{}, halves(cell)};
     const bool two_sided = opposing(cell);
     if (!two_sided && count >= enough_points_) {
@@ -156,7 +155,7 @@ class PartitionOfUnity::Builder {
     std::vector<int> chosen;
     double squared_reach = 0;
     for (int k = 0; k < found && chosen.size() < enough_points_ + 4; ++k) {
-      if (normals_.row(sites[k]).dot(normals_.row(sites[0])) < agree) continue;
+      if (normals_.row(sites[k]).dot(normals_.row(sites[0])) < oppose) continue;
       chosen.push_back(static_cast<int>(sites[k]));
       squared_reach = squared_distances[k];
     }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <span>
+#include <utility>
 
 #include "modeler/domain/point_neighbors.h"
 #include "modeler/domain/point_orientation.h"
@@ -16,16 +17,24 @@ namespace {
 
 constexpr std::array neighbor_counts = {12, 18, 27, 40, 60, 90, 135, 200, 300, 450};
 constexpr Index asked_points = 200;
-constexpr int tree_neighbors = 12;
-constexpr int most_parts = 32;
+constexpr int tree_neighbors = 16;
+constexpr int neighbors_of_one = 20;  // for each point that gets a normal of its own
 constexpr double least_part = 0.005;  // of the points
 constexpr Index least_points = 12;
 
-Points plane_normals(const Points& positions, const PointNeighbors& neighbors) {
-  Points normals(positions.rows(), 3);
-  parallel_chunks(positions.rows(), 512, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i)
-      normals.row(i) = principal_axes(positions, i, neighbors.of(i)).axes.col(0).transpose();
+/// At the chosen points, by `count` neighbours each.
+Points plane_normals(const Points& positions, const std::vector<int>& chosen, int count) {
+  const SiteTree tree(positions);
+  Points normals(static_cast<Index>(chosen.size()), 3);
+  parallel_chunks(normals.rows(), 256, [&](Index begin, Index end) {
+    std::vector<Index> sites(std::size_t(count) + 1);
+    std::vector<double> squared_distances(sites.size());
+    std::vector<int> others;
+    for (Index i = begin; i < end; ++i) {
+      const int found = tree.nearest(positions.row(chosen[i]), sites, squared_distances);
+      others.assign(sites.begin() + 1, sites.begin() + found);
+      normals.row(i) = principal_axes(positions, sites[0], others).axes.col(0).transpose();
+    }
   });
   return normals;
 }
@@ -64,17 +73,14 @@ int flattest_neighbors(const Points& positions, const Points& normals) {
   return neighbor_counts[static_cast<std::size_t>(least - off_plane.begin())];
 }
 
-PointNormals estimate_normals(const Points& positions) {
-  PointNormals result;
-  result.neighbors = flattest_neighbors(positions);
-  const PointNeighbors neighbors(positions, result.neighbors);
-  Points& normals = result.normals = plane_normals(positions, neighbors);
-  const std::vector<int> parts = orient_normals(positions, tree_neighbors, most_parts, normals);
-
+/// Turns each part outwards; normals of parts of a few points become zero. Returns how many are
+/// left.
+int turn_parts(const Points& positions, const PointNeighbors& neighbors,
+               const std::vector<int>& parts, Points& normals) {
   const Eigen::VectorXd areas = point_areas(neighbors, positions, normals);
-  std::vector<PartMoments> moments(most_parts);
+  std::vector<PartMoments> moments;
   for (Index i = 0; i < positions.rows(); ++i) {
-    if (parts[i] < 0) continue;
+    moments.resize(std::max(moments.size(), std::size_t(parts[i]) + 1));
     PartMoments& part = moments[parts[i]];
     ++part.points;
     part.area += areas[i];
@@ -83,16 +89,48 @@ PointNormals estimate_normals(const Points& positions) {
     part.flux += areas[i] * normals.row(i).dot(positions.row(i));
   }
   const auto least = std::max(least_points, Index(least_part * double(positions.rows())));
-  result.parts = static_cast<int>(std::count_if(
-      moments.begin(), moments.end(), [&](const PartMoments& m) { return m.points >= least; }));
   for (Index i = 0; i < positions.rows(); ++i) {
-    if (parts[i] < 0 || moments[parts[i]].points < least) {
+    const PartMoments& part = moments[parts[i]];
+    if (part.points < least)
       normals.row(i).setZero();
-      ++result.unoriented;
-    } else if (moments[parts[i]].inwards()) {
+    else if (part.inwards())
       normals.row(i) *= -1;
-    }
   }
+  return static_cast<int>(std::count_if(moments.begin(), moments.end(),
+                                        [&](const auto& part) { return part.points >= least; }));
+}
+
+/// Each row of `normals`, which belong to `chosen`, for the points nearest to it.
+Points spread(const Points& normals, const Points& chosen, const Points& positions) {
+  const SiteTree tree(chosen);
+  Points result(positions.rows(), 3);
+  parallel_chunks(positions.rows(), 512, [&](Index begin, Index end) {
+    Index site;
+    double squared_distance;
+    for (Index i = begin; i < end; ++i) {
+      tree.nearest(positions.row(i), {&site, 1}, {&squared_distance, 1});
+      result.row(i) = normals.row(site);
+    }
+  });
+  return result;
+}
+
+PointNormals estimate_normals(const Points& positions) {
+  PointNormals result;
+  result.neighbors = flattest_neighbors(positions);
+  // In the depth of noise neighbours tell nothing of one another: those of a thinner cloud do.
+  const int step = std::max(1, result.neighbors / neighbors_of_one);
+  std::vector<int> chosen;
+  for (int i = 0; i < positions.rows(); i += step) chosen.push_back(i);
+
+  Points normals = plane_normals(positions, chosen, result.neighbors);
+  const Points places = positions(chosen, Eigen::all);
+  const PointNeighbors neighbors(places, tree_neighbors);
+  const std::vector<int> parts = orient_normals(places, neighbors, normals);
+  result.parts = turn_parts(places, neighbors, parts, normals);
+  result.normals = step == 1 ? std::move(normals) : spread(normals, places, positions);
+  for (Index i = 0; i < positions.rows(); ++i)
+    if (result.normals.row(i).isZero()) ++result.unoriented;
   return result;
 }
 

@@ -1,43 +1,136 @@
 #include "modeler/domain/point_orientation.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <tuple>
 
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/mst_orient_normals.h>
-#include <CGAL/property_map.h>
+#include "solver/core/parallel.h"
 
 namespace supple {
 
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using OrientedPoint = std::tuple<Kernel::Point_3, Kernel::Vector_3, int>;
+constexpr int tree_neighbors = 10;
+constexpr double doubt_of_length = 0.1;  // of a way as long as to the farthest neighbour
+constexpr int most_sweeps = 4;
+
+/// Cosine between the normal at j and the normal at i brought there.
+double agreement(const Points& positions, const Points& normals, Index i, Index j) {
+  const Vec3 way = (positions.row(j) - positions.row(i)).transpose().normalized();
+  const Vec3 from = normals.row(i), to = normals.row(j);
+  return from.dot(to) - 2 * way.dot(from) * way.dot(to);
+}
+
+struct Link {
+  float doubt;
+  int a, b;
+  bool opposite;
+  bool operator<(const Link& other) const {
+    return std::tie(doubt, a, b) < std::tie(other.doubt, other.a, other.b);
+  }
+};
+
+std::vector<Link> links(const Points& positions, const PointNeighbors& neighbors,
+                        const Points& normals) {
+  std::vector<Link> result;
+  const auto count = static_cast<std::size_t>(std::min(tree_neighbors, neighbors.count()));
+  for (Index i = 0; i < positions.rows(); ++i) {
+    const double farthest = std::sqrt(neighbors.squared_distances(i).back());
+    for (std::size_t k = 0; k < count; ++k) {
+      const int j = neighbors.of(i)[k];
+      const double cosine = agreement(positions, normals, i, j);
+      const double length = std::sqrt(neighbors.squared_distances(i)[k]) / farthest;
+      result.push_back({static_cast<float>(1 - std::abs(cosine) + doubt_of_length * length),
+                        static_cast<int>(i), j, cosine < 0});
+    }
+  }
+  return result;
+}
+
+/// Disjoint sets whose members know whether they are turned against their set's first member.
+class TurnedSets {
+ public:
+  explicit TurnedSets(Index count)
+      : parents_(static_cast<std::size_t>(count)),
+        sizes_(parents_.size(), 1),
+        turned_(parents_.size(), 0) {
+    std::iota(parents_.begin(), parents_.end(), 0);
+  }
+
+  struct Place {
+    int first;
+    bool turned;
+  };
+  Place find(int i) {
+    Place place{i, false};
+    for (; parents_[place.first] != place.first; place.first = parents_[place.first])
+      place.turned ^= turned_[place.first] != 0;
+    // Everything on the way now hangs on the first member.
+    for (bool turned = place.turned; parents_[i] != place.first && i != place.first;) {
+      const int next = parents_[i];
+      const bool own = turned_[i] != 0;
+      parents_[i] = place.first;
+      turned_[i] = turned;
+      turned ^= own;
+      i = next;
+    }
+    return place;
+  }
+
+  void join(const Link& link) {
+    Place a = find(link.a), b = find(link.b);
+    if (a.first == b.first) return;
+    if (sizes_[a.first] < sizes_[b.first]) std::swap(a, b);
+    parents_[b.first] = a.first;
+    turned_[b.first] = a.turned ^ b.turned ^ link.opposite;
+    sizes_[a.first] += sizes_[b.first];
+  }
+
+ private:
+  std::vector<int> parents_, sizes_;
+  std::vector<char> turned_;  ///< against the parent
+};
 
 }  // namespace
 
-std::vector<int> orient_normals(const Points& positions, int neighbors, int most_parts,
+std::vector<int> orient_normals(const Points& positions, const PointNeighbors& neighbors,
                                 Points& normals) {
-  std::vector<OrientedPoint> points;
-  points.reserve(static_cast<std::size_t>(positions.rows()));
-  for (Index i = 0; i < positions.rows(); ++i)
-    points.emplace_back(Kernel::Point_3(positions(i, 0), positions(i, 1), positions(i, 2)),
-                        Kernel::Vector_3(normals(i, 0), normals(i, 1), normals(i, 2)),
-                        static_cast<int>(i));
-  const auto how = CGAL::parameters::point_map(CGAL::Nth_of_tuple_property_map<0, OrientedPoint>())
-                       .normal_map(CGAL::Nth_of_tuple_property_map<1, OrientedPoint>());
+  std::vector<Link> tree = links(positions, neighbors, normals);
+  std::sort(tree.begin(), tree.end());
+  TurnedSets sets(positions.rows());
+  for (const Link& link : tree) sets.join(link);
 
-  std::vector<int> parts(points.size(), -1);
-  std::vector<OrientedPoint> rest = std::move(points);
-  for (int part = 0; part < most_parts && !rest.empty(); ++part) {
-    const auto end = CGAL::mst_orient_normals(rest, static_cast<unsigned>(neighbors), how);
-    for (auto point = rest.begin(); point != end; ++point) {
-      const auto& [position, normal, i] = *point;
-      normals.row(i) << normal.x(), normal.y(), normal.z();
-      parts[static_cast<std::size_t>(i)] = part;
-    }
-    rest.erase(rest.begin(), end);
+  std::vector<int> parts, numbers(static_cast<std::size_t>(positions.rows()), -1);
+  int count = 0;
+  for (int i = 0; i < positions.rows(); ++i) {
+    const auto [first, turned] = sets.find(i);
+    if (turned) normals.row(i) *= -1;
+    if (numbers[first] < 0) numbers[first] = count++;
+    parts.push_back(numbers[first]);
   }
+  turn_odd_normals(positions, neighbors, normals);
   return parts;
+}
+
+long turn_odd_normals(const Points& positions, const PointNeighbors& neighbors, Points& normals) {
+  long turned = 0;
+  std::vector<char> odd(static_cast<std::size_t>(positions.rows()));
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    parallel_chunks(positions.rows(), 512, [&](Index begin, Index end) {
+      for (Index i = begin; i < end; ++i) {
+        double votes = 0;
+        for (int j : neighbors.of(i)) votes += agreement(positions, normals, i, j);
+        odd[i] = votes < 0;
+      }
+    });
+    const auto count = std::count(odd.begin(), odd.end(), 1);
+    for (Index i = 0; i < positions.rows(); ++i)
+      if (odd[i]) normals.row(i) *= -1;
+    turned += count;
+    if (count == 0) break;
+  }
+  return turned;
 }
 
 }  // namespace supple

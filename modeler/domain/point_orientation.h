@@ -2,15 +2,20 @@
 
 #include <vector>
 
-#include "solver/core/types.h"
+#include "modeler/domain/point_neighbors.h"
 
 namespace supple {
 
-/// Turns each normal by a minimum spanning tree over nearest neighbours (Hoppe et al. 1992, by
-/// CGAL), so that the normals of each connected part of the cloud agree. For each point the part
-/// it is of, from 0; −1 where there are more than `most_parts` of them.
-/// `positions` n×3; `normals` n×3, unit length, either sign; `neighbors` that the tree may join.
-std::vector<int> orient_normals(const Points& positions, int neighbors, int most_parts,
+/// Turns normals so that they agree, by a spanning tree over neighbours: from a point to the next
+/// a normal goes by reflection in the plane halfway between them, which is right on every circle
+/// through both and also across a thin part or a narrow gap. The tree takes first where that
+/// leaves no doubt. After Hoppe et al. 1992, with the transport of König & Gumhold 2009.
+/// For each point the connected part of the cloud that it is of, from 0; the sign of each part
+/// is free. `positions` n×3; `normals` n×3, unit length, either sign.
+std::vector<int> orient_normals(const Points& positions, const PointNeighbors& neighbors,
                                 Points& normals);
+
+/// Turns normals that look against what most neighbours' say; returns how many.
+long turn_odd_normals(const Points& positions, const PointNeighbors& neighbors, Points& normals);
 
 }  // namespace supple
