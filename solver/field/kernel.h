@@ -83,33 +83,29 @@ struct Support {
     return offset / h;
   }
 
-  /// t = |d|² at d, with its derivatives by x.
+  /// |d|² with its derivatives by x, t its value.
   template <int Order>
-  Jet<Dim, Order> square(const Vector& d) const {
-    Jet<Dim, Order> t(d.squaredNorm());
+  Jet<Dim, Order> square(const Vector& d, double t) const {
+    Jet<Dim, Order> square(t);
     if constexpr (Order >= 1) {
-      const Vector slope = stretch ? Vector(*stretch * d) : d;
-      for (int k = 0; k < Dim; ++k) t.first(k) = 2 * slope[k] / h;
+      const double factor = 2 / h;
+      if (stretch)
+        for (int k = 0; k < Dim; ++k) square.first(k) = factor * stretch->col(k).dot(d);
+      else
+        for (int k = 0; k < Dim; ++k) square.first(k) = factor * d[k];
     }
     if constexpr (Order >= 2)
       for (int k = 0; k < Dim; ++k)
         for (int l = k; l < Dim; ++l)
-          t.second(k, l) =
+          square.second(k, l) =
               2 / (h * h) * (stretch ? stretch->col(k).dot(stretch->col(l)) : (k == l ? 1 : 0));
-    return t;
+    return square;
   }
 };
 
-/// True where a particle reaches a point at scaled distance vector d: in a ball, or for the box
-/// kernel in a cube, before they are stretched.
-template <int Dim>
-bool reaches(KernelKind kind, const Eigen::Matrix<double, Dim, 1>& d) {
-  if (kind == KernelKind::box) return d.cwiseAbs().maxCoeff() < 1;
-  return d.squaredNorm() < 1;
-}
-
 template <int Dim, int Order>
 Jet<Dim, Order> box_weight(const Support<Dim>& support, const Eigen::Matrix<double, Dim, 1>& d) {
+  if (!(d.cwiseAbs().maxCoeff() < 1)) return {};
   Jet<Dim, Order> w(1.0);
   for (int a = 0; a < Dim; ++a) {
     const auto [c0, c1, c2] = box_kernel(d[a]);
@@ -127,15 +123,17 @@ Jet<Dim, Order> box_weight(const Support<Dim>& support, const Eigen::Matrix<doub
 }
 
 /// Weight of a particle at the distance vector `offset` = x − x_i [m], with derivatives by x. Zero
-/// outside the support. KernelKind::singular: the numerator of (1 − q²)³/q².
+/// outside the support, a ball or for the box kernel a cube, stretched. KernelKind::singular: the
+/// numerator of (1 − q²)³/q².
 template <int Dim, int Order>
 Jet<Dim, Order> kernel_weight(KernelKind kind, const Eigen::Matrix<double, Dim, 1>& offset,
                               const Support<Dim>& support) {
   const Eigen::Matrix<double, Dim, 1> d = support.scaled(offset);
-  if (!reaches<Dim>(kind, d)) return {};
   if (kind == KernelKind::box) return box_weight<Dim, Order>(support, d);
-  const Jet<Dim, Order> t = support.template square<Order>(d);
-  const RadialKernel radial = radial_kernel(kind, t.value());
+  const double q2 = d.squaredNorm();
+  if (!(q2 < 1)) return {};
+  const Jet<Dim, Order> t = support.template square<Order>(d, q2);
+  const RadialKernel radial = radial_kernel(kind, q2);
   Jet<Dim, Order> w(radial.value);
   for (int k = 0; k < w.firsts; ++k) w.first(k) = radial.first * t.first(k);
   if constexpr (Order >= 2)

@@ -39,7 +39,10 @@ class PointFit {
       weights_.push_back(w);
       offsets_.push_back(-offset);
       supports_.push_back(support.h);
-      if (singular) squares_.push_back(support.template square<Order>(support.scaled(offset)));
+      if (singular) {
+        const VectorOf<Dim> d = support.scaled(offset);
+        squares_.push_back(support.template square<Order>(d, d.squaredNorm()));
+      }
       greatest = std::max(greatest, w.value());
     }
     particles.resize(kept);
@@ -56,7 +59,10 @@ class PointFit {
     add_linear(phi);
     int rank = 1 + span_.rank();
     if (order_ == BasisOrder::quadratic) rank += add_quadratic(phi);
-    restore_unity(phi);
+    if (anchored())
+      leave_rest_to_anchor(phi);
+    else
+      restore_unity(phi);
     return rank;
   }
 
@@ -84,16 +90,23 @@ class PointFit {
   static constexpr std::size_t no_anchor = static_cast<std::size_t>(-1);
   bool anchored() const { return anchor_ != no_anchor; }
 
-  /// Makes Σ φ_j = 1 to rounding: over small eigenvalues the blocks' own sums, zero by design, are
-  /// not so to more than 1e-16/λ. The anchor takes what the others leave: its block is not its own.
+  /// Makes Σ φ_j = 1 to rounding where it is not: over a small eigenvalue λ the blocks' own sums,
+  /// zero by design, are so to 1e-16/λ only.
   void restore_unity(std::vector<J>& phi) const {
-    if (anchored()) phi[anchor_] = J();
+    double sum = 0;
+    for (const J& p : phi) sum += p.value();
+    if (std::abs(sum - 1) < 1e-14) return;
     J rest(1.0);
     for (const J& p : phi) rest -= p;
-    if (anchored())
-      phi[anchor_] = rest;
-    else
-      for (std::size_t j = 0; j < phi.size(); ++j) phi[j] += weights_[j] * rest;
+    for (std::size_t j = 0; j < phi.size(); ++j) phi[j] += weights_[j] * rest;
+  }
+
+  /// The anchor takes what the others leave: its block weight is not its weight.
+  void leave_rest_to_anchor(std::vector<J>& phi) const {
+    J rest(1.0);
+    for (std::size_t j = 0; j < phi.size(); ++j)
+      if (j != anchor_) rest -= phi[j];
+    phi[anchor_] = rest;
   }
 
   /// Weights of the singular kernel, k_j/t_j with t = q². Times the least one, τ = t_a of the

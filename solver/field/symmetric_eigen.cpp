@@ -21,23 +21,13 @@ void symmetric_eigen(const Eigen::Matrix<double, N, N>& S, Eigen::Matrix<double,
 template <int N>
 void congruent(const Eigen::Matrix<double, N, N>& V, const Eigen::Matrix<double, N, N>& M,
                Eigen::Matrix<double, N, N>& product) {
-  for (int a = 0; a < N; ++a) {
-    double row[N] = {};
-    for (int i = 0; i < N; ++i)
-      for (int j = 0; j < N; ++j) row[j] += V(a, i) * M(i, j);
-    for (int b = 0; b < N; ++b) {
-      double sum = 0;
-      for (int j = 0; j < N; ++j) sum += row[j] * V(b, j);
-      product(a, b) = sum;
-    }
-  }
+  product.noalias() = V * M * V.transpose();
 }
 
 template <int N>
 void rotated(const Eigen::Matrix<double, N, N>& V, const Eigen::Matrix<double, N, N>& M,
              Eigen::Matrix<double, N, N>& product) {
-  const Eigen::Matrix<double, N, N> transposed = V.transpose();
-  congruent<N>(transposed, M, product);
+  product.noalias() = V.transpose() * M * V;
 }
 
 template void symmetric_eigen<1>(const Eigen::Matrix<double, 1, 1>&, Eigen::Matrix<double, 1, 1>&,
