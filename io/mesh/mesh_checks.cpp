@@ -27,6 +27,13 @@ void scale_colors(Mesh& mesh, const FileBytes& file) {
   mesh.notes.push_back("the colors run to 255 and were divided by 255");
 }
 
+void check_radii(const Mesh& mesh, const FileBytes& file) {
+  Index row = 0;
+  if (mesh.radii.size() > 0 && mesh.radii.minCoeff(&row) < 0)
+    throw InputError(fmt::format("{}: the radius {} of point {} (counted from 0) is negative",
+                                 file.name, mesh.radii[row], row));
+}
+
 template <int Columns>
 void simplify_corners(Attribute<Columns>& attribute, const Mesh& mesh) {
   if (attribute.values.rows() == mesh.positions.rows() && attribute.corners == mesh.face_vertices)
@@ -71,6 +78,7 @@ void finish_mesh(Mesh& mesh, const FileBytes& file) {
   if (mesh.positions.rows() == 0)
     throw InputError(fmt::format("{}: the file has no vertices", file.name));
   scale_colors(mesh, file);
+  check_radii(mesh, file);
   simplify_corners(mesh.normals, mesh);
   simplify_corners(mesh.texcoords, mesh);
   note_repeated_vertices(mesh);
@@ -97,6 +105,9 @@ void check_mesh(const Mesh& mesh) {
   check_attribute(mesh.normals, mesh, "normals");
   check_attribute(mesh.texcoords, mesh, "texcoords");
   check_attribute(mesh.colors, mesh, "colors");
+  SUPPLE_CHECK(mesh.radii.size() == 0 || (mesh.radii.size() == vertices && mesh.radii.allFinite() &&
+                                          mesh.radii.minCoeff() >= 0),
+               "radii");
 }
 
 }  // namespace supple

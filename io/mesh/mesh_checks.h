@@ -10,7 +10,8 @@ namespace supple {
 /// What every reader ends with. Checks that there are vertices; brings colours from [0, 255]
 /// to [0, 1]; makes an attribute per vertex where each corner takes the value of its vertex's
 /// number; notes what is odd about the faces.
-/// Errors: InputError where there is no vertex or a colour lies outside [0, 255].
+/// Errors: InputError where there is no vertex, a colour lies outside [0, 255], or a radius is
+/// negative.
 void finish_mesh(Mesh& mesh, const FileBytes& file);
 
 /// Appends to mesh.notes that `count` things were left out, where there are any.

@@ -6,18 +6,26 @@
 
 #include "io/mesh/mesh_checks.h"
 #include "io/mesh/mesh_formats.h"
+#include "io/mesh/number_types.h"
 #include "io/mesh/text_scanner.h"
+#include "io/points/point_formats.h"
 
 namespace supple {
 namespace {
 
 enum Holds : unsigned {
-  holds_polygons = 1,
-  holds_tags = 2,
-  holds_corner_normals = 4,
-  holds_corner_texcoords = 8,
-  holds_attributes = 16,  // per vertex
-  holds_alpha = 32,
+  holds_faces = 1,
+  holds_polygons = 2,
+  holds_tags = 4,
+  holds_normals = 8,
+  holds_corner_normals = 16,
+  holds_texcoords = 32,
+  holds_corner_texcoords = 64,
+  holds_colors = 128,
+  holds_fine_colors = 256,
+  holds_alpha = 512,
+  holds_radii = 1024,
+  holds_vertex_values = holds_normals | holds_texcoords | holds_colors | holds_fine_colors,
 };
 
 struct MeshFormat {
@@ -27,14 +35,18 @@ struct MeshFormat {
   unsigned holds;
 };
 
-constexpr std::array<MeshFormat, 4> known_formats = {{
+constexpr std::array<MeshFormat, 7> known_formats = {{
     {"obj", read_obj, write_obj,
-     holds_polygons | holds_tags | holds_corner_normals | holds_corner_texcoords |
-         holds_attributes},
-    {"off", read_off, write_off, holds_polygons | holds_attributes | holds_alpha},
+     holds_faces | holds_polygons | holds_tags | holds_corner_normals | holds_corner_texcoords |
+         holds_vertex_values},
+    {"off", read_off, write_off, holds_faces | holds_polygons | holds_vertex_values | holds_alpha},
     {"ply", read_ply, write_ply,
-     holds_polygons | holds_corner_texcoords | holds_attributes | holds_alpha},
-    {"stl", read_stl, write_stl, 0},
+     holds_faces | holds_polygons | holds_corner_texcoords | holds_vertex_values | holds_alpha |
+         holds_radii},
+    {"stl", read_stl, write_stl, holds_faces},
+    {"pcd", read_pcd, write_pcd, holds_normals | holds_colors | holds_alpha | holds_radii},
+    {"pwn", read_pwn, write_pwn, holds_normals},
+    {"xyz", read_xyz, write_xyz, holds_normals | holds_colors | holds_fine_colors},
 }};
 
 const MeshFormat* format_of(const std::filesystem::path& path) {
@@ -51,6 +63,7 @@ const MeshFormat* recognize(const FileBytes& file) {
   const std::string_view word = scanner.word();
   const auto format = [](std::string_view name) { return format_of(fmt::format("x.{}", name)); };
   if (word == "ply") return format("ply");
+  if (word == "VERSION" || word == "FIELDS") return format("pcd");
   if (word.ends_with("OFF")) return format("off");
   if (lower_case(word) == "solid") return format("stl");
   for (const std::string_view keyword : {"v", "vn", "vt", "o", "g", "s", "mtllib", "usemtl"})
@@ -98,16 +111,24 @@ std::vector<std::string> left_out_by(const std::filesystem::path& path, const Me
   };
   const bool polygons =
       mesh.face_vertices.size() != 3 * static_cast<std::size_t>(mesh.face_count());
-  add(holds_polygons, polygons, "polygons: written in triangles");
-  add(holds_polygons, true, "shared vertices: written thrice for every triangle");
+  if ((format.holds & holds_faces) == 0) {
+    add(holds_faces, mesh.face_count() > 0, "faces: only the vertices are written");
+  } else {
+    add(holds_polygons, polygons, "polygons: written in triangles");
+    add(holds_polygons, true, "shared vertices: written thrice for every triangle");
+  }
   add(holds_tags, !mesh.tags.empty() || !mesh.material_libraries.empty(), "groups and materials");
-  add(mesh.normals.per_corner() ? holds_corner_normals : holds_attributes, !mesh.normals.empty(),
+  add(mesh.normals.per_corner() ? holds_corner_normals : holds_normals, !mesh.normals.empty(),
       mesh.normals.per_corner() ? "normals per corner" : "normals");
-  add(mesh.texcoords.per_corner() ? holds_corner_texcoords : holds_attributes,
+  add(mesh.texcoords.per_corner() ? holds_corner_texcoords : holds_texcoords,
       !mesh.texcoords.empty(),
       mesh.texcoords.per_corner() ? "texture coordinates per corner" : "texture coordinates");
-  add(holds_attributes, !mesh.colors.empty(), "colors");
+  add(holds_colors, !mesh.colors.empty(), "colors");
+  if ((format.holds & holds_colors) != 0)
+    add(holds_fine_colors, !mesh.colors.empty() && !are_bytes(mesh.colors),
+        "colors finer than bytes: rounded");
   add(holds_alpha, !mesh.colors.empty() && mesh.colors.values.col(3).minCoeff() < 1, "alpha");
+  add(holds_radii, mesh.radii.size() > 0, "radii");
   return sentences;
 }
 

@@ -13,7 +13,7 @@ Mesh read_obj(const FileBytes& file);
 Mesh read_off(const FileBytes& file);
 
 /// Triangle strips (`tristrips`) become triangles; a list `texcoord` on the faces becomes
-/// texture coordinates per corner.
+/// texture coordinates per corner. Points without faces may have a `radius` (or `radii`).
 Mesh read_ply(const FileBytes& file);
 
 /// STL shares no vertices: triangle t has the vertices 3t, 3t+1, 3t+2. Facet normals follow
@@ -25,10 +25,9 @@ void write_obj(const Mesh& mesh, OutputFile& file);
 /// Header letters say what is there: ST (texture), C (colors), N (normals).
 void write_off(const Mesh& mesh, OutputFile& file);
 
-/// Binary, little-endian. Positions are float32, or double where float32 would move a vertex
-/// by more than 2⁻²² of the bounding box's diagonal. Colors are bytes where all are multiples
-/// of 1/255, float32 otherwise. Where texture coordinates are per corner, a corner without any
-/// gets (0, 0).
+/// Binary, little-endian. Positions are float32, or double where needs_double() says so. Colors
+/// are bytes where all are multiples of 1/255, float32 otherwise. Where texture coordinates are
+/// per corner, a corner without any gets (0, 0).
 void write_ply(const Mesh& mesh, OutputFile& file);
 
 /// Binary; polygons in triangles.

@@ -106,15 +106,23 @@ class PlyReader {
         find_columns(element, {{"red", "green", "blue", "alpha"}, {"red", "green", "blue"}});
     if (!color.empty()) assign(columns, color, mesh_.colors.values);
     for (const int c : color) columns[c].unit = color_unit(element.properties[c].type);
+    const auto radius = find_columns(element, {{"radius"}, {"radii"}});
+    if (!radius.empty() && !has_faces()) assign(columns, radius, mesh_.radii);
     for (std::size_t c = 0; c < columns.size(); ++c)
       if (!columns[c].target) leave_out(element, element.properties[c]);
     return columns;
   }
 
+  bool has_faces() const {
+    return std::any_of(header_.elements.begin(), header_.elements.end(), [](const PlyElement& e) {
+      return (e.name == "face" || e.name == "tristrips") && e.count > 0;
+    });
+  }
+
   /// Makes `values` and points the columns of the file at the columns of it.
   template <class Matrix>
   void assign(std::vector<Column>& columns, const std::vector<int>& found, Matrix& values) {
-    values.setOnes(vertices_, values.cols());
+    values = Matrix::Ones(vertices_, values.cols());
     for (std::size_t k = 0; k < found.size(); ++k)
       columns[found[k]] = {.target = values.data() + k, .stride = static_cast<int>(values.cols())};
   }

@@ -4,29 +4,18 @@
 
 #include "io/mesh/binary_output.h"
 #include "io/mesh/mesh_formats.h"
+#include "io/mesh/number_types.h"
 #include "io/mesh/text_output.h"
 
 namespace supple {
 namespace {
-
-/// See write_ply. The bounds also keep float32 away from its overflow and its denormals.
-bool needs_double(const Points& x) {
-  if (x.rows() == 0) return false;
-  const double diagonal = bounding_box(x).diagonal(), largest = x.cwiseAbs().maxCoeff();
-  return largest * 0x1p-24 > diagonal * 0x1p-22 || largest > 0x1p100 || diagonal < 0x1p-80;
-}
-
-bool are_bytes(const Attribute<4>& colors) {
-  const auto scaled = colors.values.array() * 255;
-  return ((scaled - scaled.round()).abs() < 1e-4).all();
-}
 
 class PlyWriter {
  public:
   PlyWriter(const Mesh& mesh, OutputFile& file)
       : mesh_(mesh),
         file_(file),
-        doubles_(needs_double(mesh.positions)),
+        doubles_(needs_double(mesh)),
         normals_(!mesh.normals.empty() && !mesh.normals.per_corner()),
         texcoords_(!mesh.texcoords.empty() && !mesh.texcoords.per_corner()),
         corner_texcoords_(!mesh.texcoords.empty() && mesh.texcoords.per_corner()),
@@ -57,6 +46,7 @@ class PlyWriter {
     if (texcoords_) declare("float", {"s", "t"});
     if (colors_) declare(color_bytes_ ? "uchar" : "float", {"red", "green", "blue"});
     if (alpha_) declare(color_bytes_ ? "uchar" : "float", {"alpha"});
+    if (mesh_.radii.size() > 0) declare("float", {"radius"});
     if (mesh_.face_count() > 0) {
       const std::string_view count = wide_counts_ ? "int" : "uchar";
       print(file_, "element face {}\nproperty list {} int vertex_indices\n", mesh_.face_count(),
@@ -77,6 +67,7 @@ class PlyWriter {
     if (texcoords_) append_floats(mesh_.texcoords.values.row(i));
     for (int channel = 0; channel < (alpha_ ? 4 : colors_ ? 3 : 0); ++channel)
       append_color(mesh_.colors.values(i, channel));
+    if (mesh_.radii.size() > 0) append_real(mesh_.radii[i], false);
     file_.write(row_);
   }
 

@@ -136,8 +136,7 @@ void TextScanner::expect(std::string_view expected) {
     fail(fmt::format("\"{}\" is expected here, not {}", expected, quoted(found)));
 }
 
-double TextScanner::number() {
-  const std::string_view text = word();
+double TextScanner::to_number(std::string_view text) const {
   double value = 0;
   const auto [end, error] = parse(text, value);
   if (error == std::errc::invalid_argument || end != text.data() + text.size())

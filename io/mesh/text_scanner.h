@@ -32,7 +32,7 @@ class TextScanner {
   std::string_view word();
   /// The next word, which must be `expected` (lower case; capitals are accepted too).
   void expect(std::string_view expected);
-  double number();
+  double number() { return to_number(word()); }
   long long integer();
   /// What is left of the line, without blanks at its ends.
   std::string_view rest();
@@ -46,6 +46,9 @@ class TextScanner {
   std::size_t bytes_left() const { return static_cast<std::size_t>(text_end_ - next_); }
   /// The last line does not end: its last number may have been cut.
   bool ends_inside_line() const { return text_end_[-1] != newline_; }
+
+  /// The number that a word of this line stands for.
+  double to_number(std::string_view text) const;
 
   [[noreturn]] void fail(std::string_view message) const { fail_at(line_, message); }
   [[noreturn]] void fail_at(int line, std::string_view message) const;

@@ -76,18 +76,32 @@ Eigen::Affine3d map_from_world(const GroundRect& rect, const Vec3& up) {
   return map;
 }
 
+/// Enters the square in the splat's disc.
+void add_splat(const Drawing& drawing, const DrawnVertex& splat,
+               const Eigen::Affine3d& map_from_ground, HeightMap& heights) {
+  const Vec3 center = world_position(drawing, splat);
+  const Vec3 normal = Eigen::Map<const Eigen::Vector3f>(splat.normal.data()).cast<double>();
+  const double radius = drawing.size * static_cast<double>(splat.radius);
+  const Vec3 across = radius * normal.unitOrthogonal(), along = normal.cross(across);
+  const auto place = [&](const Vec3& x) { return (map_from_ground * x).cast<float>().eval(); };
+  const Eigen::Vector3f left = place(center - across), right = place(center + across);
+  heights.add(left, right, place(center + along));
+  heights.add(left, right, place(center - along));
+}
+
 }  // namespace
 
 GroundRect ground_below(const Drawing& drawing, const View& view) {
   const Vec3 right = view.rotation.row(0), away = view.up.cross(right);
   Eigen::Vector2d lower = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d upper = -lower;
-  for (const DrawnVertex& vertex : drawing.vertices) {
-    const Vec3 x = world_position(drawing, vertex);
-    const Eigen::Vector2d place(right.dot(x), away.dot(x));
-    lower = lower.cwiseMin(place);
-    upper = upper.cwiseMax(place);
-  }
+  for (const auto* vertices : {&drawing.vertices, &drawing.splats})
+    for (const DrawnVertex& vertex : *vertices) {
+      const Vec3 x = world_position(drawing, vertex);
+      const Eigen::Vector2d place(right.dot(x), away.dot(x));
+      lower = lower.cwiseMin(place);
+      upper = upper.cwiseMax(place);
+    }
   const double room = blur_room * (upper - lower).maxCoeff();
   lower.array() -= room;
   upper.array() += room;
@@ -114,6 +128,9 @@ std::vector<std::uint8_t> contact_shadow(const Drawing& drawing, const GroundRec
   for (std::size_t i = 0; i < drawing.indices.size(); i += 3)
     heights.add(places[drawing.indices[i]], places[drawing.indices[i + 1]],
                 places[drawing.indices[i + 2]]);
+
+  for (const DrawnVertex& splat : drawing.splats)
+    add_splat(drawing, splat, map_from_ground, heights);
 
   std::vector<std::uint8_t> map(shadow_map_side * shadow_map_side);
   for (std::size_t cell = 0; cell < map.size(); ++cell)

@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "io/picture/smooth_corners.h"
+#include "io/points/spacing.h"
 #include "solver/core/check.h"
 
 namespace supple {
 namespace {
 
 constexpr double crease_angle_deg = 40;
+constexpr double splat_over_spacing = 1.1;
 constexpr std::array<std::uint8_t, 4> clay = {238, 208, 178, 255};
 
 std::uint8_t to_byte(double value) {
@@ -76,12 +78,49 @@ void add_surface(const PictureItem& item, Drawing& drawing) {
   drawing.indices.assign(corners.group.begin(), corners.group.end());
 }
 
-void add_cloud(const PictureItem& item, Drawing& drawing) {
-  const Points& positions = item.mesh->positions;
+/// The points whose coordinates are finite.
+std::vector<Index> finite_points(const Points& positions) {
+  std::vector<Index> rows;
   for (Index i = 0; i < positions.rows(); ++i)
-    if (finite_row(positions, i))
-      drawing.points.centers.push_back(
-          {local_position(drawing, positions, i), {}, vertex_color(item, i)});
+    if (finite_row(positions, i)) rows.push_back(i);
+  return rows;
+}
+
+/// Unit length, zero where there is none.
+Eigen::Vector3f point_normal(const Mesh& mesh, Index point) {
+  if (mesh.normals.per_corner() || mesh.normals.values.rows() != mesh.positions.rows())
+    return Eigen::Vector3f::Zero();
+  const Vec3 n = mesh.normals.values.row(point).transpose();
+  return n.allFinite() && n.norm() > 0 ? n.normalized().cast<float>().eval()
+                                       : Eigen::Vector3f::Zero();
+}
+
+/// Splats that reach their neighbours, but do not swell where a point lies far from all others.
+Eigen::VectorXd radii_by_spacing(const Points& positions) {
+  const Eigen::VectorXd spacing = neighbor_spacing(positions);
+  std::vector<double> sorted(spacing.begin(), spacing.end());
+  const auto middle = sorted.begin() + static_cast<Index>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return splat_over_spacing * spacing.cwiseMin(3 * *middle);
+}
+
+void add_cloud(const PictureItem& item, Drawing& drawing) {
+  const Mesh& mesh = *item.mesh;
+  const std::vector<Index> rows = finite_points(mesh.positions);
+  Eigen::VectorXd radii = Eigen::VectorXd::Zero(static_cast<Index>(rows.size()));
+  if (mesh.radii.size() == mesh.positions.rows())
+    radii = mesh.radii(rows);
+  else if (!mesh.normals.empty() && !rows.empty())
+    radii = radii_by_spacing(mesh.positions(rows, Eigen::all));
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double radius = radii[static_cast<Index>(k)] / drawing.size;
+    const Eigen::Vector3f n = point_normal(mesh, rows[k]);
+    auto& points = n.isZero(0) ? drawing.balls : drawing.splats;
+    points.push_back({local_position(drawing, mesh.positions, rows[k]),
+                      {n[0], n[1], n[2]},
+                      vertex_color(item, rows[k]),
+                      std::isfinite(radius) ? static_cast<float>(radius) : 0});
+  }
 }
 
 /// The i-th of `colors`, or what stands for all where there are none.
@@ -90,12 +129,12 @@ Color color_of(const std::vector<Color>& colors, const Color& all, Index i) {
 }
 
 void add_markers(const Markers& markers, Drawing& drawing) {
-  DrawnBalls balls{{}, markers.radius};
-  for (Index i = 0; i < markers.positions.rows(); ++i)
-    if (finite_row(markers.positions, i))
-      balls.centers.push_back({local_position(drawing, markers.positions, i),
-                               {},
-                               to_bytes(color_of(markers.colors, markers.color, i))});
+  std::vector<DrawnVertex> balls;
+  for (const Index i : finite_points(markers.positions))
+    balls.push_back({local_position(drawing, markers.positions, i),
+                     {},
+                     to_bytes(color_of(markers.colors, markers.color, i)),
+                     static_cast<float>(markers.radius / drawing.size)});
   drawing.markers.push_back(std::move(balls));
 }
 

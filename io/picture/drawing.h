@@ -8,17 +8,12 @@
 
 namespace supple {
 
-/// What the graphics library reads for one vertex of a surface or one ball.
+/// What the graphics library reads for one vertex of a surface, one splat or one ball.
 struct DrawnVertex {
   std::array<float, 3> position;      ///< in the drawing's own coordinates
   std::array<float, 3> normal;        ///< unit length; zero where the surface has no area
   std::array<std::uint8_t, 4> color;  ///< red, green, blue, 255
-};
-
-/// Balls of one radius.
-struct DrawnBalls {
-  std::vector<DrawnVertex> centers;
-  double radius = 0;  ///< [m]; 0: chosen by the picture's scale
+  float radius = 0;  ///< of a point, in the drawing's coordinates; 0: by the picture's scale
 };
 
 /// Lines of one width, two vertices each.
@@ -41,8 +36,9 @@ struct Drawing {
   double size = 1;             ///< [m]
   std::vector<DrawnVertex> vertices;
   std::vector<std::uint32_t> indices;  ///< three a triangle
-  DrawnBalls points;                   ///< of a mesh without faces
-  std::vector<DrawnBalls> markers;
+  std::vector<DrawnVertex> splats;     ///< points with normals, of a mesh without faces
+  std::vector<DrawnVertex> balls;      ///< points without normals
+  std::vector<std::vector<DrawnVertex>> markers;
   double opacity = 1;                             ///< of the surface
   Eigen::Vector4f cut = Eigen::Vector4f::Zero();  ///< x is left out where cut·(x, 1) > 0
   std::vector<DrawnLines> lines;

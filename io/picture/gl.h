@@ -25,6 +25,7 @@ struct Gl {
   decltype(&OSMesaDestroyContext) destroy_context = load("OSMesaDestroyContext");
   decltype(&OSMesaMakeCurrent) make_current = load("OSMesaMakeCurrent");
 
+  decltype(&glActiveTexture) active_texture = load("glActiveTexture");
   decltype(&glAttachShader) attach_shader = load("glAttachShader");
   decltype(&glBindBuffer) bind_buffer = load("glBindBuffer");
   decltype(&glBindFramebuffer) bind_framebuffer = load("glBindFramebuffer");
@@ -47,12 +48,15 @@ struct Gl {
   decltype(&glDeleteTextures) delete_textures = load("glDeleteTextures");
   decltype(&glDeleteVertexArrays) delete_vertex_arrays = load("glDeleteVertexArrays");
   decltype(&glDepthFunc) depth_function = load("glDepthFunc");
+  decltype(&glDepthMask) depth_mask = load("glDepthMask");
   decltype(&glDisable) disable = load("glDisable");
   decltype(&glDrawArrays) draw_arrays = load("glDrawArrays");
+  decltype(&glDrawBuffers) draw_buffers = load("glDrawBuffers");
   decltype(&glDrawElements) draw_elements = load("glDrawElements");
   decltype(&glEnable) enable = load("glEnable");
   decltype(&glEnableVertexAttribArray) enable_attribute = load("glEnableVertexAttribArray");
   decltype(&glFramebufferRenderbuffer) attach_renderbuffer = load("glFramebufferRenderbuffer");
+  decltype(&glFramebufferTexture2D) attach_texture = load("glFramebufferTexture2D");
   decltype(&glGenBuffers) gen_buffers = load("glGenBuffers");
   decltype(&glGenFramebuffers) gen_framebuffers = load("glGenFramebuffers");
   decltype(&glGenRenderbuffers) gen_renderbuffers = load("glGenRenderbuffers");
@@ -69,6 +73,7 @@ struct Gl {
   decltype(&glShaderSource) shader_source = load("glShaderSource");
   decltype(&glTexImage2D) texture_image = load("glTexImage2D");
   decltype(&glTexParameteri) texture_parameter = load("glTexParameteri");
+  decltype(&glUniform1i) uniform_1i = load("glUniform1i");
   decltype(&glUniform1f) uniform_1f = load("glUniform1f");
   decltype(&glUniform4fv) uniform_4fv = load("glUniform4fv");
   decltype(&glUniformMatrix3fv) uniform_matrix3 = load("glUniformMatrix3fv");

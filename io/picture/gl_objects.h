@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <initializer_list>
 #include <memory>
 #include <string_view>
@@ -56,9 +57,24 @@ class GlProgram {
   GlProgram& operator=(const GlProgram&) = delete;
 
   void use() const { gl_.use_program(id_); }
-  GLint uniform(const char* name) const { return gl_.uniform_location(id_, name); }
+  // Uniforms of the program in use:
+  void set(const char* name, double value) const {
+    gl_.uniform_1f(uniform(name), static_cast<GLfloat>(value));
+  }
+  void set(const char* name, int value) const { gl_.uniform_1i(uniform(name), value); }
+  void set(const char* name, const Eigen::Vector4f& vector) const {
+    gl_.uniform_4fv(uniform(name), 1, vector.data());
+  }
+  void set(const char* name, const Eigen::Matrix4d& matrix) const {
+    gl_.uniform_matrix4(uniform(name), 1, GL_FALSE, matrix.cast<float>().eval().data());
+  }
+  void set(const char* name, const Eigen::Matrix3d& matrix) const {
+    gl_.uniform_matrix3(uniform(name), 1, GL_FALSE, matrix.cast<float>().eval().data());
+  }
 
  private:
+  GLint uniform(const char* name) const { return gl_.uniform_location(id_, name); }
+
   const Gl& gl_;
   GLuint id_;
 };

@@ -2,56 +2,20 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstddef>
 #include <limits>
 
 #include "io/picture/contact_shadow.h"
 #include "io/picture/shaders.h"
+#include "io/picture/splat_painter.h"
+#include "io/picture/vertex_array.h"
 #include "solver/core/parallel.h"
 
 namespace supple {
 namespace {
 
-constexpr int fineness = 2;              // of the canvas, against the picture: smooths its edges
-constexpr double largest_ball_px = 120;  // OSMesa draws points up to 255 pixels wide
+constexpr int fineness = 2;  // of the canvas, against the picture: smooths its edges
 
 constexpr float background_depth = -std::numeric_limits<float>::infinity();
-
-/// Vertices (and triangles) handed to OpenGL, ready to draw as long as this lives.
-class VertexArray {
- public:
-  VertexArray(const Gl& gl, const std::vector<DrawnVertex>& vertices,
-              const std::vector<std::uint32_t>& indices = {})
-      : array_(gl.gen_vertex_arrays, gl.delete_vertex_arrays),
-        vertices_(gl.gen_buffers, gl.delete_buffers),
-        indices_(gl.gen_buffers, gl.delete_buffers) {
-    gl.bind_vertex_array(array_.id());
-    gl.bind_buffer(GL_ARRAY_BUFFER, vertices_.id());
-    fill(gl, GL_ARRAY_BUFFER, vertices);
-    gl.bind_buffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
-    fill(gl, GL_ELEMENT_ARRAY_BUFFER, indices);
-    set_attribute(gl, 0, 3, GL_FLOAT, offsetof(DrawnVertex, position));
-    set_attribute(gl, 1, 3, GL_FLOAT, offsetof(DrawnVertex, normal));
-    set_attribute(gl, 2, 4, GL_UNSIGNED_BYTE, offsetof(DrawnVertex, color));
-  }
-
- private:
-  template <class Value>
-  static void fill(const Gl& gl, GLenum target, const std::vector<Value>& values) {
-    gl.buffer_data(target, static_cast<GLsizeiptr>(values.size() * sizeof(Value)), values.data(),
-                   GL_STATIC_DRAW);
-  }
-
-  static void set_attribute(const Gl& gl, GLuint index, GLint count, GLenum type,
-                            std::size_t offset) {
-    const GLboolean normalized = type == GL_UNSIGNED_BYTE;
-    gl.attribute_pointer(index, count, type, normalized, sizeof(DrawnVertex),
-                         reinterpret_cast<const void*>(offset));
-    gl.enable_attribute(index);
-  }
-
-  GlObject array_, vertices_, indices_;
-};
 
 /// The pixels of the canvas that become one pixel of the picture.
 struct FinePixels {
@@ -85,10 +49,12 @@ void for_each_pixel(int width, int height, const Body& body) {
   });
 }
 
-void set_matrix(const Gl& gl, const GlProgram& program, const char* name,
-                const Eigen::Matrix4d& matrix) {
-  const Eigen::Matrix4f values = matrix.cast<float>();
-  gl.uniform_matrix4(program.uniform(name), 1, GL_FALSE, values.data());
+PointScale point_scale(const Drawing& drawing, const std::vector<DrawnVertex>& points,
+                       const View& view) {
+  const double pixels = fineness * view.pixels_per_meter;
+  return {.px_per_unit = pixels * drawing.size,
+          .default_px = fineness * suitable_radius_px(drawing, points, view),
+          .depth_per_px = 1 / (2 * pixels * view.depth)};
 }
 
 /// Lines as strips that face the viewer, a little in front of what they lie on: OpenGL itself need
@@ -124,7 +90,8 @@ Painter::Painter(int width, int height)
       gl_(context_.gl()),
       background_(gl_, {shaders::background_vertex}, {shaders::background_fragment}),
       surface_(gl_, {shaders::surface_vertex}, {shaders::lighting, shaders::surface_fragment}),
-      ball_(gl_, {shaders::ball_vertex}, {shaders::lighting, shaders::ball_fragment}),
+      ball_(gl_, {shaders::point_size, shaders::ball_vertex},
+            {shaders::lighting, shaders::ball_fragment}),
       flat_(gl_, {shaders::flat_vertex}, {shaders::flat_fragment}),
       ground_(gl_, {shaders::ground_vertex}, {shaders::ground_fragment}),
       canvas_(gl_, fineness * width, fineness * height) {
@@ -151,17 +118,18 @@ void Painter::use_column(const View& view, int column) const {
 
 void Painter::draw_shape(const Drawing& drawing, const View& view, const Place& place) const {
   use_column(view, place.column);
-  if (!drawing.indices.empty()) {
-    if (place.ground_shadow && view.rotation.row(2).dot(view.up) > 0) draw_shadow(drawing, view);
-    if (drawing.opacity >= 1) draw_surface(drawing, view);
-  }
+  const bool is_surface = !drawing.indices.empty() || !drawing.splats.empty();
+  if (is_surface && place.ground_shadow && view.rotation.row(2).dot(view.up) > 0)
+    draw_shadow(drawing, view);
+  if (!drawing.indices.empty() && drawing.opacity >= 1) draw_surface(drawing, view);
+  if (!drawing.splats.empty()) draw_splats(drawing, view, place.column);
   for (const DrawnSheet& sheet : drawing.sheets) draw_flat(drawing, sheet, view);
-  draw_balls(drawing, drawing.points, view);
+  draw_balls(drawing, drawing.balls, view);
 }
 
 void Painter::draw_markers(const Drawing& drawing, const View& view, int column) const {
   use_column(view, column);
-  for (const DrawnBalls& balls : drawing.markers) draw_balls(drawing, balls, view);
+  for (const std::vector<DrawnVertex>& balls : drawing.markers) draw_balls(drawing, balls, view);
 }
 
 void Painter::draw_lines(const Drawing& drawing, const View& view, int column) const {
@@ -189,7 +157,7 @@ void Painter::draw_flat(const Drawing& drawing, const DrawnSheet& sheet, const V
   if (sheet.indices.empty()) return;
   const VertexArray array(gl_, sheet.vertices, sheet.indices);
   flat_.use();
-  set_matrix(gl_, flat_, "to_clip", clip_from_world(view) * world_from_drawing(drawing));
+  flat_.set("to_clip", clip_from(view, world_from_drawing(drawing)));
   gl_.enable(GL_DEPTH_TEST);
   gl_.draw_elements(GL_TRIANGLES, static_cast<GLsizei>(sheet.indices.size()), GL_UNSIGNED_INT,
                     nullptr);
@@ -197,30 +165,37 @@ void Painter::draw_flat(const Drawing& drawing, const DrawnSheet& sheet, const V
 }
 
 void Painter::draw_surface(const Drawing& drawing, const View& view) const {
-  const Eigen::Matrix3f to_view = view.rotation.cast<float>();
   const VertexArray array(gl_, drawing.vertices, drawing.indices);
   surface_.use();
-  set_matrix(gl_, surface_, "to_clip", clip_from_world(view) * world_from_drawing(drawing));
-  gl_.uniform_matrix3(surface_.uniform("to_view"), 1, GL_FALSE, to_view.data());
-  gl_.uniform_4fv(surface_.uniform("cut"), 1, drawing.cut.data());
-  gl_.uniform_1f(surface_.uniform("opacity"), static_cast<float>(drawing.opacity));
+  surface_.set("to_clip", clip_from(view, world_from_drawing(drawing)));
+  surface_.set("to_view", view.rotation);
+  surface_.set("cut", drawing.cut);
+  surface_.set("opacity", drawing.opacity);
   gl_.enable(GL_DEPTH_TEST);
   gl_.draw_elements(GL_TRIANGLES, static_cast<GLsizei>(drawing.indices.size()), GL_UNSIGNED_INT,
                     nullptr);
   gl_.disable(GL_DEPTH_TEST);
 }
 
-void Painter::draw_balls(const Drawing& drawing, const DrawnBalls& balls, const View& view) const {
-  if (balls.centers.empty()) return;
-  const VertexArray array(gl_, balls.centers);
-  const double radius = std::min(fineness * ball_radius_px(drawing, balls, view), largest_ball_px);
+void Painter::draw_splats(const Drawing& drawing, const View& view, int column) const {
+  const SplatPainter splats(gl_, fineness * view.column_width, fineness * height_);
+  gl_.viewport(0, 0, fineness * view.column_width, fineness * height_);
+  gl_.scissor(0, 0, fineness * view.column_width, fineness * height_);
+  splats.gather(drawing, view, point_scale(drawing, drawing.splats, view));
+  gl_.bind_framebuffer(GL_FRAMEBUFFER, canvas_.id());
+  use_column(view, column);
+  splats.resolve(fineness * column * view.column_width);
+}
+
+void Painter::draw_balls(const Drawing& drawing, const std::vector<DrawnVertex>& balls,
+                         const View& view) const {
+  if (balls.empty()) return;
+  const VertexArray array(gl_, balls);
   ball_.use();
-  set_matrix(gl_, ball_, "to_clip", clip_from_world(view) * world_from_drawing(drawing));
-  gl_.uniform_1f(ball_.uniform("radius_px"), static_cast<float>(radius));
-  gl_.uniform_1f(ball_.uniform("radius_depth"),
-                 static_cast<float>(radius / (2 * fineness * view.pixels_per_meter * view.depth)));
+  ball_.set("to_clip", clip_from(view, world_from_drawing(drawing)));
+  point_scale(drawing, balls, view).set(ball_);
   gl_.enable(GL_DEPTH_TEST);
-  gl_.draw_arrays(GL_POINTS, 0, static_cast<GLsizei>(balls.centers.size()));
+  gl_.draw_arrays(GL_POINTS, 0, static_cast<GLsizei>(balls.size()));
   gl_.disable(GL_DEPTH_TEST);
 }
 
@@ -238,7 +213,7 @@ void Painter::draw_shadow(const Drawing& drawing, const View& view) const {
 
   const VertexArray none(gl_, {});
   ground_.use();
-  set_matrix(gl_, ground_, "to_clip", clip_from_world(view) * world_from_ground(rect));
+  ground_.set("to_clip", clip_from(view, world_from_ground(rect)));
   gl_.enable(GL_BLEND);
   gl_.blend_function(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   gl_.draw_arrays(GL_TRIANGLE_STRIP, 0, 4);

@@ -38,8 +38,10 @@ class Painter {
   void draw_background() const;
   void draw_shadow(const Drawing& drawing, const View& view) const;
   void draw_surface(const Drawing& drawing, const View& view) const;
+  void draw_splats(const Drawing& drawing, const View& view, int column) const;
   void draw_flat(const Drawing& drawing, const DrawnSheet& sheet, const View& view) const;
-  void draw_balls(const Drawing& drawing, const DrawnBalls& balls, const View& view) const;
+  void draw_balls(const Drawing& drawing, const std::vector<DrawnVertex>& balls,
+                  const View& view) const;
   void use_column(const View& view, int column) const;
   template <class Value>
   std::vector<Value> read_canvas(GLenum format, GLenum type, int channels) const;

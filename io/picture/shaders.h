@@ -79,15 +79,27 @@ void main() {
 }
 )";
 
+/// How large a point is in the picture: see PointScale.
+inline constexpr std::string_view point_size = R"(#version 330 core
+layout(location = 3) in float radius;
+uniform float px_per_unit;
+uniform float default_px;
+uniform float largest_px;
+float seen_radius() {
+  return clamp(radius > 0.0 ? px_per_unit * radius : default_px, 0.75, largest_px);
+}
+)";
+
 /// A ball is one square point of the right size, lit and cut out by pixel.
-inline constexpr std::string_view ball_vertex = R"(#version 330 core
+inline constexpr std::string_view ball_vertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec4 color;
 uniform mat4 to_clip;
-uniform float radius_px;
 out vec3 seen_color;
+out float radius_px;
 void main() {
   seen_color = color.rgb;
+  radius_px = seen_radius();
   gl_PointSize = 2.0 * radius_px;
   gl_Position = to_clip * vec4(position, 1.0);
 }
@@ -97,15 +109,80 @@ void main() {
 /// is not half sunk in it.
 inline constexpr std::string_view ball_fragment = R"(
 in vec3 seen_color;
-uniform float radius_depth;
+in float radius_px;
+uniform float depth_per_px;
 out vec4 pixel;
 void main() {
   vec2 across = (2.0 * gl_PointCoord - 1.0) * vec2(1.0, -1.0);
   float square = dot(across, across);
   if (square > 1.0) discard;
   vec3 n = vec3(across, sqrt(1.0 - square));
-  gl_FragDepth = gl_FragCoord.z - radius_depth * (1.0 + n.z);
+  gl_FragDepth = gl_FragCoord.z - depth_per_px * radius_px * (1.0 + n.z);
   pixel = vec4(shade(n, seen_color), 1.0);
+}
+)";
+
+/// A splat is a disc across its normal. Seen from behind it is darker, as a surface is, but not
+/// where it peeps out behind the edge of what it belongs to.
+inline constexpr std::string_view splat_vertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 color;
+uniform mat4 to_clip;
+uniform mat3 to_view;
+out vec3 seen_normal;
+out vec3 seen_color;
+out float radius_px;
+void main() {
+  seen_normal = to_view * normal;
+  seen_color = color.rgb;
+  if (seen_normal.z < 0.0) {
+    seen_color *= mix(vec3(1.0), vec3(0.62, 0.64, 0.70), smoothstep(0.1, 0.5, -seen_normal.z));
+    seen_normal = -seen_normal;
+  }
+  radius_px = seen_radius();
+  gl_PointSize = 2.0 * radius_px;
+  gl_Position = to_clip * vec4(position, 1.0);
+}
+)";
+
+/// Adds up normals and colours, weighted by the nearness to the splat's centre; the depth goes
+/// along with the colours. With `behind` = 1 only the depth counts, set back by one radius:
+/// splats of one surface lie that near to each other, and what lies deeper is hidden.
+inline constexpr std::string_view splat_fragment = R"(#version 330 core
+in vec3 seen_normal;
+in vec3 seen_color;
+in float radius_px;
+uniform float depth_per_px;
+uniform float behind;
+layout(location = 0) out vec4 normal_sum;
+layout(location = 1) out vec4 color_sum;
+void main() {
+  vec2 across = (2.0 * gl_PointCoord - 1.0) * vec2(1.0, -1.0);
+  float nearer = -dot(across, seen_normal.xy) / max(seen_normal.z, 0.01);
+  float weight = 1.0 - dot(across, across) - nearer * nearer;
+  if (weight <= 0.0) discard;
+  weight *= weight;
+  float depth = gl_FragCoord.z - depth_per_px * radius_px * nearer;
+  gl_FragDepth = depth + behind * depth_per_px * radius_px;
+  normal_sum = weight * vec4(seen_normal, 1.0);
+  color_sum = weight * vec4(seen_color, depth);
+}
+)";
+
+/// Lights what splat_fragment added up.
+inline constexpr std::string_view resolve_fragment = R"(
+uniform sampler2D normal_sums;
+uniform sampler2D color_sums;
+uniform int left;
+out vec4 pixel;
+void main() {
+  ivec2 place = ivec2(gl_FragCoord.xy) - ivec2(left, 0);
+  vec4 normal = texelFetch(normal_sums, place, 0);
+  vec4 color = texelFetch(color_sums, place, 0) / normal.w;
+  if (normal.w == 0.0) discard;
+  gl_FragDepth = color.a;
+  pixel = vec4(shade(normalize(normal.xyz), color.rgb), 1.0);
 }
 )";
 

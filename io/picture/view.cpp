@@ -12,30 +12,44 @@ constexpr double margin = 0.07;            // of a column's width and height, on
 constexpr double deepest_shadow_room = 2;  // depths drawn, over those that items take
 
 /// Boxes along the camera's axes and the least height of everything that is drawn.
-struct Extent {
+class Extent {
+ public:
+  Extent(const Mat3& rotation, const Vec3& up) : rotation_(rotation), up_(up) {}
+
+  /// A disc across the vertex's normal, a ball where it has none.
+  void extend(const Drawing& drawing, const DrawnVertex& vertex) {
+    const Vec3 x = world_position(drawing, vertex), y = rotation_ * x;
+    const Vec3 n = Eigen::Map<const Eigen::Vector3f>(vertex.normal.data()).cast<double>();
+    const double radius = drawing.size * static_cast<double>(vertex.radius);
+    const auto reach = [&](const Vec3& axis) {
+      return radius * std::sqrt(std::max(0.0, 1 - std::pow(axis.dot(n), 2)));
+    };
+    const Vec3 reaches(reach(rotation_.row(0)), reach(rotation_.row(1)), reach(rotation_.row(2)));
+    seen.extend(y - reaches);
+    seen.extend(y + reaches);
+    ground = std::min(ground, up_.dot(x) - reach(up_));
+  }
+
   Box seen;
   double ground = std::numeric_limits<double>::infinity();
 
-  void extend(const Mat3& rotation, const Vec3& up, const Vec3& x, double radius) {
-    const Vec3 y = rotation * x;
-    seen.extend(y - Vec3::Constant(radius));
-    seen.extend(y + Vec3::Constant(radius));
-    ground = std::min(ground, up.dot(x) - radius);
-  }
+ private:
+  Mat3 rotation_;
+  Vec3 up_;
 };
 
 Extent measure(const std::vector<Drawing>& drawings, const Mat3& rotation, const Vec3& up) {
-  Extent extent;
+  Extent extent(rotation, up);
   for (const Drawing& drawing : drawings) {
-    const auto extend = [&](const std::vector<DrawnVertex>& vertices, double radius) {
-      for (const DrawnVertex& vertex : vertices)
-        extent.extend(rotation, up, world_position(drawing, vertex), radius);
+    const auto extend = [&](const std::vector<DrawnVertex>& vertices) {
+      for (const DrawnVertex& vertex : vertices) extent.extend(drawing, vertex);
     };
-    extend(drawing.vertices, 0);
-    extend(drawing.points.centers, drawing.points.radius);
-    for (const DrawnBalls& balls : drawing.markers) extend(balls.centers, balls.radius);
-    for (const DrawnLines& lines : drawing.lines) extend(lines.ends, 0);
-    for (const DrawnSheet& sheet : drawing.sheets) extend(sheet.vertices, 0);
+    extend(drawing.vertices);
+    extend(drawing.splats);
+    extend(drawing.balls);
+    for (const std::vector<DrawnVertex>& balls : drawing.markers) extend(balls);
+    for (const DrawnLines& lines : drawing.lines) extend(lines.ends);
+    for (const DrawnSheet& sheet : drawing.sheets) extend(sheet.vertices);
   }
   return extent;
 }
@@ -85,26 +99,26 @@ Eigen::Vector2d pixel_of(const Vec3& x, const View& view) {
   return {0.5 * view.column_width + seen.x(), 0.5 * (view.height - view.label_height) - seen.y()};
 }
 
-double ball_radius_px(const Drawing& drawing, const DrawnBalls& balls, const View& view) {
-  if (balls.radius > 0) return balls.radius * view.pixels_per_meter;
+double suitable_radius_px(const Drawing& drawing, const std::vector<DrawnVertex>& points,
+                          const View& view) {
   Box seen;
-  for (const DrawnVertex& vertex : balls.centers)
+  for (const DrawnVertex& vertex : points)
     seen.extend(view.rotation * world_position(drawing, vertex));
   const double largest = 0.008 * view.height;
   if (seen.diagonal() == 0) return largest;
-  const double spacing = view.pixels_per_meter * seen.diagonal() /
-                         std::sqrt(static_cast<double>(balls.centers.size()));
+  const double spacing =
+      view.pixels_per_meter * seen.diagonal() / std::sqrt(static_cast<double>(points.size()));
   return std::clamp(0.25 * spacing, 0.2 * largest, largest);
 }
 
-Eigen::Matrix4d clip_from_world(const View& view) {
+Eigen::Matrix4d clip_from(const View& view, const Eigen::Matrix4d& world_from_shape) {
   const Vec3 scale(2 * view.pixels_per_meter / view.column_width,
                    2 * view.pixels_per_meter / view.height, -1 / view.depth);
   Eigen::Matrix4d clip = Eigen::Matrix4d::Identity();
   clip.topLeftCorner<3, 3>() = scale.asDiagonal() * view.rotation;
   clip.topRightCorner<3, 1>() = -clip.topLeftCorner<3, 3>() * view.center;
   clip(1, 3) += static_cast<double>(view.label_height) / view.height;
-  return clip;
+  return clip * world_from_shape;
 }
 
 }  // namespace supple

@@ -31,10 +31,12 @@ View fit_view(const std::vector<Drawing>& drawings, const PictureOptions& option
 /// Where x [m] is drawn in its column, from the left and from the top [px].
 Eigen::Vector2d pixel_of(const Vec3& x, const View& view);
 
-/// The balls' radius in pixels: their own, or one that suits their number and spread.
-double ball_radius_px(const Drawing& drawing, const DrawnBalls& balls, const View& view);
+/// A radius in pixels for points that have none of their own: one that suits their number and
+/// spread.
+double suitable_radius_px(const Drawing& drawing, const std::vector<DrawnVertex>& points,
+                          const View& view);
 
-/// [m] → OpenGL's clip coordinates of a column.
-Eigen::Matrix4d clip_from_world(const View& view);
+/// Coordinates of a shape → OpenGL's clip coordinates of a column, by way of [m].
+Eigen::Matrix4d clip_from(const View& view, const Eigen::Matrix4d& world_from_shape);
 
 }  // namespace supple

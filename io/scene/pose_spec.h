@@ -85,6 +85,7 @@ struct PoseSpec {
   double tolerance = 1e-6;
   std::optional<int> substeps;
   SurfaceKind surface = SurfaceKind::field;
+  bool fill_gaps = false;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -102,6 +103,9 @@ struct PoseSpec {
            .min = 1,
            .max = 10000});
     visit("surface", self.surface, {.doc = "how the surface follows the particles"});
+    visit("fill_gaps", self.fill_gaps,
+          {.doc = "true: a point cloud gets points where neighbours part by more than 1.5 times "
+                  "their distance; they come after those there were"});
   }
 };
 

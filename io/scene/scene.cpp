@@ -13,6 +13,14 @@ EnumNames<QuadratureKind> enum_names(QuadratureKind) {
   return names;
 }
 
+EnumNames<CouplingKind> enum_names(CouplingKind) {
+  static constexpr std::array<std::pair<CouplingKind, std::string_view>, 2> names{{
+      {CouplingKind::inside, "inside"},
+      {CouplingKind::straight, "straight"},
+  }};
+  return names;
+}
+
 EnumNames<FileUnit> enum_names(FileUnit) {
   static constexpr std::array<std::pair<FileUnit, std::string_view>, 4> names{{
       {FileUnit::metre, "m"},

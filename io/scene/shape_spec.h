@@ -12,6 +12,10 @@ namespace supple {
 enum class QuadratureKind { automatic, particles, cells };
 EnumNames<QuadratureKind> enum_names(QuadratureKind);
 
+/// By which ways particles reach points: those inside the shape alone, or straight through gaps.
+enum class CouplingKind { inside, straight };
+EnumNames<CouplingKind> enum_names(CouplingKind);
+
 /// What one unit of a mesh file's coordinates, and of lengths without a percent, stands for.
 enum class FileUnit { metre, centimetre, millimetre, inch };
 EnumNames<FileUnit> enum_names(FileUnit);
@@ -19,7 +23,8 @@ EnumNames<FileUnit> enum_names(FileUnit);
 /// What is to be deformed, and how finely.
 struct ShapeSpec {
   Place place;
-  std::string mesh;  ///< path, relative to the scene file
+  std::string mesh;    ///< path, relative to the scene file; this or `points` is given
+  std::string points;  ///< the same, of a point cloud
   FileUnit units = FileUnit::metre;
   std::optional<int> particles;  ///< not together with spacing
   std::optional<Length> spacing;
@@ -27,12 +32,17 @@ struct ShapeSpec {
   BasisOrder basis = BasisOrder::linear;
   KernelKind kernel = KernelKind::polynomial;
   QuadratureKind quadrature = QuadratureKind::automatic;
+  CouplingKind coupling = CouplingKind::inside;
+
+  const std::string& file() const { return points.empty() ? mesh : points; }
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     visit("mesh", self.mesh, {.doc = "triangle or polygon mesh: OBJ, PLY, OFF, STL"});
+    visit("points", self.points,
+          {.doc = "point cloud: XYZ, PWN, PCD, or the vertices of a mesh file; instead of mesh"});
     visit("units", self.units,
-          {.doc = "unit of the mesh file and of lengths; a pose is the same "
+          {.doc = "unit of the shape's file and of lengths; a pose is the same "
                   "in all"});
     visit("particles", self.particles,
           {.doc = "number of particles that carry the field (default 200)", .min = 1, .max = 1e6});
@@ -50,6 +60,8 @@ struct ShapeSpec {
     visit("kernel", self.kernel, {.doc = "weight function of the moving least squares"});
     visit("quadrature", self.quadrature,
           {.doc = "where energies are sampled (cells: not available yet)"});
+    visit("coupling", self.coupling,
+          {.doc = "what parts feel of each other: by ways inside the shape, or across gaps too"});
   }
 };
 

@@ -19,6 +19,15 @@ namespace {
 
 constexpr Color held_color{0.10f, 0.30f, 0.75f}, moved_color{0.85f, 0.05f, 0.05f};
 
+/// The shape as the scene names it: a file given as points is one, whatever faces it holds.
+Mesh read_shape(const Scene& scene) {
+  Mesh shape = read_mesh(scene.folder / scene.shape.file());
+  if (scene.shape.points.empty() || shape.face_count() == 0) return shape;
+  shape.notes.push_back(
+      fmt::format("{} faces are left out: shape.points takes vertices alone", shape.face_count()));
+  return points_of(std::move(shape));
+}
+
 PoseResult solve(const Mesh& shape, const Scene& scene, ProgressLine& line) {
   const Progress progress = [&](const std::string& stage, double share) {
     line.show(stage, share);
@@ -59,6 +68,8 @@ void write_outputs(const PoseArguments& arguments, ProgressLine& line, PoseRun& 
   line.show("write", 0);
   InterruptWatch::check();
   if (!arguments.mesh.empty()) {
+    for (std::string& sentence : left_out_by(arguments.mesh, run.result->mesh))
+      run.result->report.notes.push_back(std::move(sentence));
     write_mesh(run.result->mesh, arguments.mesh);
     run.outputs.push_back(arguments.mesh);
   }
@@ -103,7 +114,7 @@ int run_pose(Words words) {
   if (!scene.pose) scene.pose.emplace().place = scene.shape.place;
   arguments.check_outputs();
   line.show("load", 0);
-  const Mesh shape = read_mesh(scene.folder / scene.shape.mesh);
+  const Mesh shape = read_shape(scene);
   run.load_seconds = watch.seconds();
 
   const auto write_report = [&] {

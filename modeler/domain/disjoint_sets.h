@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
 namespace supple {
 
-/// Sets of the numbers 0 … n−1, each at first alone in its own.
+/// Sets of the numbers below `count`, each at first alone in its own. A set's root is its least
+/// number.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parents_(count) {
@@ -18,8 +20,13 @@ class DisjointSets {
     return i;
   }
 
-  void unite(int i, int j) { parents_[root(i)] = root(j); }
-  bool together(int i, int j) { return root(i) == root(j); }
+  void unite(int a, int b) {
+    a = root(a);
+    b = root(b);
+    parents_[std::max(a, b)] = std::min(a, b);
+  }
+
+  bool together(int a, int b) { return root(a) == root(b); }
 
  private:
   std::vector<int> parents_;

@@ -204,7 +204,7 @@ class Sampler {
     return best;
   }
 
-  ParticleSampling result(Points sites, const Evenness& evenness) const {
+  ParticleSampling result(Points sites, const Evenness& evenness) {
     ParticleSampling sampling;
     Particles& particles = sampling.particles;
     particles.volumes = cell_volumes(blocks_.nearest_sites(sites).sites, sites.rows());
@@ -217,6 +217,7 @@ class Sampler {
     sampling.covering_radius = evenness.cover;
     sampling.min_pair_distance =
         particles.size() > 1 ? evenness.closest.distance : particles.spacing;
+    sampling.samples = std::move(samples_);
     return sampling;
   }
 

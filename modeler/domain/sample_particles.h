@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "modeler/domain/volume_samples.h"
 #include "solver/core/describe.h"
 #include "solver/core/rest_shape.h"
 
@@ -31,6 +32,7 @@ struct ParticleSampling {
   Particles particles;           ///< supports are still empty
   double min_pair_distance = 0;  ///< [m], ≥ 0.7 s
   double covering_radius = 0;    ///< greatest distance from the inside to a particle [m], ≤ 1.2 s
+  VolumeSamples samples;         ///< of the volume that they share
 };
 
 /// Centroidal Voronoi sampling: farthest points, then Lloyd steps. V_i is the particle's Voronoi

@@ -26,6 +26,14 @@ double SiteTree::distance(const Vec3& x) const {
   return std::sqrt(squared_distance);
 }
 
+int SiteTree::nearest(const Vec3& x, std::span<Index> sites,
+                      std::span<double> squared_distances) const {
+  nanoflann::KNNResultSet<double, Index> found(sites.size());
+  found.init(sites.data(), squared_distances.data());
+  tree_->search.index->findNeighbors(found, x.data(), nanoflann::SearchParams());
+  return static_cast<int>(found.size());
+}
+
 std::vector<int> SiteTree::within(const Vec3& x, double radius) const {
   std::vector<std::pair<Index, double>> found;
   // The search leaves out what is exactly at the rim.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include "solver/core/check.h"
@@ -132,6 +133,14 @@ SurfaceSamples sample_surface(const Points& positions, const Triangles& triangle
     result.triangles.push_back(samples[i].triangle);
     result.vertices.push_back(samples[i].vertex);
   }
+  return result;
+}
+
+SurfaceSamples point_samples(const Points& positions, const Eigen::VectorXd& areas) {
+  SUPPLE_CHECK(areas.size() == positions.rows(), "each point needs an area");
+  const auto count = static_cast<std::size_t>(positions.rows());
+  SurfaceSamples result{positions, areas, std::vector<int>(count, -1), std::vector<int>(count)};
+  std::iota(result.vertices.begin(), result.vertices.end(), 0);
   return result;
 }
 

@@ -10,8 +10,8 @@ namespace supple {
 struct SurfaceSamples {
   Points positions;            ///< [m], n×3
   Eigen::VectorXd areas;       ///< [m²], n
-  std::vector<int> triangles;  ///< the triangle each lies in
-  std::vector<int> vertices;   ///< that triangle's corner nearest to it
+  std::vector<int> triangles;  ///< the triangle each lies in; −1 in a point cloud
+  std::vector<int> vertices;   ///< that triangle's corner nearest to it; in a point cloud the point
   Index size() const { return positions.rows(); }
 };
 
@@ -19,6 +19,9 @@ struct SurfaceSamples {
 /// ceil(longest edge / max_width) pieces) and puts a sample at each part's centroid.
 SurfaceSamples sample_surface(const Points& positions, const Triangles& triangles,
                               double max_width);
+
+/// A point cloud as it is: each point stands for its own area [m²].
+SurfaceSamples point_samples(const Points& positions, const Eigen::VectorXd& areas);
 
 /// Thins samples to about one a cell of `width` [m]: each cell keeps the sample nearest to its
 /// centroid, with the cell's whole area. Returns indices into `samples` and their areas.

@@ -20,8 +20,7 @@ Vec3 outward(const Region& region, const Vec3& x, double step) {
   Vec3 gradient;
   for (int k = 0; k < 3; ++k) gradient[k] = region.signed_distance(x + step * Vec3::Unit(k));
   gradient.normalize();
-  const bool parts =
-      region.contains(x - step * gradient) && !region.contains(x + step * gradient);
+  const bool parts = region.contains(x - step * gradient) && !region.contains(x + step * gradient);
   return parts ? gradient : Vec3(Vec3::Zero());
 }
 

@@ -184,8 +184,9 @@ TriangleTree::Dipole TriangleTree::dipole(int node, const Sums& sums) const {
   return result;
 }
 
-ClosestPoint TriangleTree::closest(const Vec3& x) const {
+ClosestPoint TriangleTree::closest(const Vec3& x, double within) const {
   ClosestPoint best;
+  best.squared_distance = within * within;
   if (nodes_.empty()) return best;
   std::array<std::pair<int, double>, stack_size> stack;
   int size = 0;

@@ -29,7 +29,9 @@ class TriangleTree {
   /// `positions` [m] n×3, near the origin when compared with their extent.
   TriangleTree(const Points& positions, const Triangles& triangles);
 
-  ClosestPoint closest(const Vec3& x) const;
+  /// Of the triangles nearer than `within` [m]; where there is none, `triangle` is −1.
+  ClosestPoint closest(const Vec3& x,
+                       double within = std::numeric_limits<double>::infinity()) const;
 
   /// The triangles that the segment from a to b passes through, in no order. A segment through an
   /// edge passes through each triangle at that edge.

@@ -1,12 +1,15 @@
 #include "modeler/domain/welded_surface.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <compare>
 #include <cstdlib>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "modeler/domain/disjoint_sets.h"
+#include "modeler/domain/surface_measures.h"
 
 namespace supple {
 
@@ -30,12 +33,6 @@ std::vector<int> number_positions(const Points& positions, std::vector<int>& fir
   return numbers;
 }
 
-Triangles rows_of(const Triangles& triangles, const std::vector<int>& rows) {
-  Triangles result(static_cast<Index>(rows.size()), 3);
-  for (Index i = 0; i < result.rows(); ++i) result.row(i) = triangles.row(rows[i]);
-  return result;
-}
-
 }  // namespace
 
 WeldedSurface weld(const Points& positions, const Triangles& triangles) {
@@ -53,7 +50,7 @@ WeldedSurface weld(const Points& positions, const Triangles& triangles) {
         welded(t, 2) != welded(t, 0))
       kept.push_back(static_cast<int>(t));
   surface.triangles = rows_of(welded, kept);
-  surface.repeated = triangles.rows() - surface.triangles.rows();
+  surface.originals = std::move(firsts);
   return surface;
 }
 
@@ -68,17 +65,39 @@ std::vector<int> rows_with_area(const Points& positions, const Triangles& triang
   std::vector<int> kept;
   for (Index t = 0; t < triangles.rows(); ++t) {
     const Vec3 a = positions.row(triangles(t, 0));
-    const Vec3 ab = positions.row(triangles(t, 1)).transpose() - a;
-    const Vec3 ac = positions.row(triangles(t, 2)).transpose() - a;
+    const double ab = (positions.row(triangles(t, 1)).transpose() - a).norm();
+    const double ac = (positions.row(triangles(t, 2)).transpose() - a).norm();
     // Below the rounding of a cross product of edges this long, an area is none.
-    const double rounding = 1e-15 * ab.norm() * ac.norm();
-    if (ab.cross(ac).norm() > rounding) kept.push_back(static_cast<int>(t));
+    const double rounding = 1e-15 * ab * ac;
+    if (double_area_normal(positions, triangles, t).norm() > rounding)
+      kept.push_back(static_cast<int>(t));
   }
   return kept;
 }
 
 Triangles with_area(const Points& positions, const Triangles& triangles) {
   return rows_of(triangles, rows_with_area(positions, triangles));
+}
+
+Triangles without_duplicates(const Triangles& triangles) {
+  struct Turned {
+    std::array<int, 3> vertices;  // the least first
+    int row;
+    auto operator<=>(const Turned&) const = default;
+  };
+  std::vector<Turned> all(triangles.rows());
+  for (Index t = 0; t < triangles.rows(); ++t) {
+    int least;
+    triangles.row(t).minCoeff(&least);
+    for (int k = 0; k < 3; ++k) all[t].vertices[k] = triangles(t, (least + k) % 3);
+    all[t].row = static_cast<int>(t);
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<int> kept;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (i == 0 || all[i].vertices != all[i - 1].vertices) kept.push_back(all[i].row);
+  std::sort(kept.begin(), kept.end());
+  return rows_of(triangles, kept);
 }
 
 std::vector<int> connected_parts(const Triangles& triangles) {

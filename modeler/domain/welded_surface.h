@@ -8,9 +8,9 @@ namespace supple {
 
 /// Triangles whose vertices are one wherever their positions are equal.
 struct WeldedSurface {
-  Points positions;     ///< [m], n×3, each once
-  Triangles triangles;  ///< with three different vertices
-  long repeated = 0;    ///< triangles left out because they name a position twice
+  Points positions;            ///< [m], n×3, each once
+  Triangles triangles;         ///< with three different vertices
+  std::vector<int> originals;  ///< for each position the first vertex that lies there
 };
 WeldedSurface weld(const Points& positions, const Triangles& triangles);
 
@@ -22,6 +22,15 @@ std::vector<int> rows_with_area(const Points& positions, const Triangles& triang
 
 /// The triangles that have an area.
 Triangles with_area(const Points& positions, const Triangles& triangles);
+
+/// The triangles without those that another names in the same turning, in their order.
+Triangles without_duplicates(const Triangles& triangles);
+
+/// The triangles of these rows, in the order of `rows`.
+template <class Row>
+Triangles rows_of(const Triangles& triangles, const std::vector<Row>& rows) {
+  return triangles(rows, Eigen::all);
+}
 
 /// For each triangle the part it is of, from 0: triangles that share vertices are of one part.
 std::vector<int> connected_parts(const Triangles& triangles);

@@ -119,6 +119,10 @@ Plan make_plan(const Scene& scene) {
   const ShapeSpec standard_shape;
   effects.push_back(on("quadrature", choice(scene.shape.place, "quadrature", scene.shape.quadrature,
                                             standard_shape.quadrature)));
+  const std::string coupling =
+      choice(scene.shape.place, "coupling", scene.shape.coupling, standard_shape.coupling);
+  effects.push_back(scene.shape.coupling == CouplingKind::inside ? on("coupling", coupling)
+                                                                 : off("coupling", coupling));
   if (scene.pose) {
     add_solving(*scene.pose, effects);
     effects.push_back(on(

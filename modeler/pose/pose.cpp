@@ -8,12 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "modeler/domain/closed_region.h"
+#include "io/scene/complaint.h"
 #include "modeler/plan/plan.h"
 #include "modeler/pose/handles.h"
 #include "modeler/pose/pose_solver.h"
 #include "modeler/pose/solid.h"
 #include "modeler/surface/deform_mesh.h"
+#include "modeler/surface/fill_gaps.h"
 
 namespace supple {
 namespace {
@@ -59,10 +60,11 @@ struct SolidField {
   SurfaceEmbedding surface;
 
   SolidField(const Solid& solid, const ShapeSpec& shape, SurfaceKind surface_kind)
-      : mls(solid.particles().positions, solid.particles().supports, {shape.basis, shape.kernel}),
+      : mls(solid.particles().positions, solid.particles().supports, {shape.basis, shape.kernel},
+            solid.detours()),
         points(solid.quadrature(shape.quadrature)),
         quadrature(sample_field(mls, points.points, SampleContent::values_and_gradients)),
-        surface(mls, quadrature, solid.vertices(), surface_kind) {}
+        surface(mls, quadrature, solid.inner_vertices(), surface_kind) {}
   SolidField(const SolidField&) = delete;
 };
 
@@ -82,6 +84,16 @@ HandleSamples choose_handles(const Mesh& mesh, const Solid& solid, const Scene& 
 void book(std::vector<Effect>& effects, const std::string& name, double seconds) {
   for (Effect& effect : effects)
     if (effect.active && effect.name == name) effect.seconds += seconds;
+}
+
+/// Coupling inside is off where no straight line leaves the shape.
+void book_coupling(std::vector<Effect>& effects, const Solid& solid) {
+  book(effects, "coupling", solid.coupling_seconds());
+  for (Effect& effect : effects)
+    if (effect.active && effect.name == "coupling" && !solid.detours()) {
+      effect.active = false;
+      effect.why = "no straight line from a particle to what it reaches leaves the shape";
+    }
 }
 
 Report solve(const Solid& solid, const SolidField& field, const HandleSamples& handles,
@@ -104,33 +116,59 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
   return report;
 }
 
+/// A fine surface has millions of samples: their rows are built for so many at a time.
+constexpr std::size_t samples_at_a_time = 16384;
+
+/// How far each of a handle's surface samples is from where it was led.
+std::vector<double> misses(const Solid& solid, const SolidField& field, const PoseHandle& handle,
+                           const Points& u) {
+  std::vector<double> misses;
+  misses.reserve(handle.selected.size());
+  for (std::size_t begin = 0; begin < handle.selected.size(); begin += samples_at_a_time) {
+    const std::size_t count = std::min(samples_at_a_time, handle.selected.size() - begin);
+    Points rest(static_cast<Index>(count), 3);
+    for (std::size_t k = 0; k < count; ++k)
+      rest.row(static_cast<Index>(k)) = solid.surface().positions.row(handle.selected[begin + k]);
+    const Samples samples = sample_field(field.mls, rest, SampleContent::values);
+    for (Index k = 0; k < rest.rows(); ++k)
+      misses.push_back((samples.position(k, u) - handle.path(rest.row(k).transpose(), 1)).norm());
+  }
+  return misses;
+}
+
 /// Misses of the handles over all their surface samples, over the diagonal.
 void measure_handles(const Solid& solid, const SolidField& field, const HandleSamples& handles,
                      const Points& u, PoseResult& result) {
-  const Points& points = solid.surface().positions;
   double all_squares = 0;
-  long all_samples = 0;
+  std::size_t all_samples = 0;
   for (const PoseHandle& handle : handles.handles()) {
-    Points rest(static_cast<Index>(handle.selected.size()), 3);
-    for (std::size_t k = 0; k < handle.selected.size(); ++k)
-      rest.row(static_cast<Index>(k)) = points.row(handle.selected[k]);
-    const Samples samples = sample_field(field.mls, rest, SampleContent::values);
     HandleResidual residual{handle.spec->place, handle.spec->selection().text,
-                            static_cast<int>(rest.rows()), 0, 0};
+                            static_cast<int>(handle.selected.size()), 0, 0};
     double squares = 0;
-    for (Index k = 0; k < rest.rows(); ++k) {
-      const double miss = (samples.position(k, u) - handle.path(rest.row(k).transpose(), 1)).norm();
+    for (const double miss : misses(solid, field, handle, u)) {
       residual.max_error = std::max(residual.max_error, miss);
       squares += miss * miss;
     }
-    residual.rms_error = std::sqrt(squares / static_cast<double>(rest.rows()));
+    residual.rms_error = std::sqrt(squares / residual.samples);
     result.handle_max_error = std::max(result.handle_max_error, residual.max_error);
     all_squares += squares;
-    all_samples += rest.rows();
+    all_samples += handle.selected.size();
     result.handles.push_back(std::move(residual));
   }
   if (all_samples > 0)
     result.handle_rms_error = std::sqrt(all_squares / static_cast<double>(all_samples));
+}
+
+/// Within the region's boundary, at rest and carried along: the mesh itself may be open.
+void measure_volume(const Solid& solid, const SolidField& field, const Points& u,
+                    const DeformedSurface& surface, PoseResult& result) {
+  const CarriedBoundary& boundary = solid.boundary();
+  const Samples samples = sample_field(field.mls, boundary.extra, SampleContent::values);
+  Points extra(boundary.extra.rows(), 3);
+  for (Index k = 0; k < extra.rows(); ++k) extra.row(k) = samples.position(k, u).transpose();
+  const double unit = std::pow(solid.unit(), 3);
+  result.volume_before = unit * enclosed_volume(boundary, solid.vertices(), boundary.extra);
+  result.volume_after = unit * enclosed_volume(boundary, surface.positions, extra);
 }
 
 /// The smallest det F over particles and the surface's vertices, and how many are not positive.
@@ -178,6 +216,7 @@ constexpr double notable_volume_change = 0.05;
 void judge(const Solid& solid, const SolidField& field, const InversionCount& inversion,
            PoseResult& result) {
   Report& report = result.report;
+  for (const Reason& reason : solid.reasons()) report.degrade(reason);
   if (inversion.inverted > 0)
     report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
                     fmt::format("{} points are turned inside out, the worst with det F = {:.3g}",
@@ -196,6 +235,36 @@ void judge(const Solid& solid, const SolidField& field, const InversionCount& in
   report.finish();
 }
 
+void check_fill_gaps(const Mesh& mesh, const PoseSpec& spec) {
+  if (spec.fill_gaps && mesh.face_count() > 0)
+    complain(spec.place, "pose.fill_gaps: the shape has faces; allowed: with a point cloud");
+}
+
+/// Points in the user's coordinates, carried as the surface is.
+DeformedSurface carry_points(const Solid& solid, const SolidField& field, SurfaceKind kind,
+                             const Points& u, const Points& rest) {
+  const Points x = solid.scaled(rest);
+  const SurfaceEmbedding embedding(field.mls, field.quadrature, x, kind);
+  DeformedSurface carried = embedding.deform(u, solid.particles().volumes);
+  carried.positions = rest + solid.unit() * (carried.positions - x);
+  return carried;
+}
+
+void fill_gaps(const Solid& solid, const SolidField& field, SurfaceKind kind, const Points& u,
+               PoseResult& result) {
+  FilledCloud filled = fill_gaps(result.rest, result.mesh, [&](const Points& rest) {
+    return carry_points(solid, field, kind, u, rest);
+  });
+  result.report.notes.push_back(
+      fmt::format("{} points fill gaps; they come after the {} of the "
+                  "cloud",
+                  filled.added, result.rest.positions.rows()));
+  if (filled.gaps > 0)
+    result.report.notes.push_back(fmt::format(
+        "{} gaps between points stay open: the cloud would grow too large", filled.gaps));
+  result.mesh = std::move(filled.deformed);
+}
+
 }  // namespace
 
 PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) {
@@ -203,6 +272,7 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   Report timing;
   Stages stages(progress, timing);
   const PoseSpec& spec = *scene.pose;
+  check_fill_gaps(mesh, spec);
   result.effects = make_plan(scene).effects;
 
   result.rest = sized(mesh, scene.shape);
@@ -213,6 +283,8 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
     thin_share = solid.choose_particle_supports(scene.shape.kernel);
     return std::make_unique<const SolidField>(solid, scene.shape, spec.surface);
   });
+
+  book_coupling(result.effects, solid);
 
   Points u = Points::Zero(solid.particles().size(), 3);
   if (handles.empty())
@@ -229,7 +301,9 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   book(result.effects, "surface", timing.seconds.back().second);
   // Added to the input rather than replacing it: what did not move keeps its last bit.
   result.mesh.positions =
-      result.rest.positions + solid.unit() * (surface.positions - solid.vertices());
+      result.rest.positions + solid.unit() * (surface.positions - solid.inner_vertices());
+  if (spec.fill_gaps)
+    stages.run("fill gaps", [&] { fill_gaps(solid, *field, spec.surface, u, result); });
 
   result.particles = solid.particles();
   result.particles.positions = solid.restored(solid.particles().positions);
@@ -239,8 +313,7 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   result.displacements = solid.unit() * u;
   result.handle_rest = solid.restored(handles.rest());
   result.handle_targets = solid.restored(handles.targets(1));
-  result.volume_before = signed_volume(result.rest.positions, solid.triangulation().triangles);
-  result.volume_after = signed_volume(result.mesh.positions, solid.triangulation().triangles);
+  measure_volume(solid, *field, u, surface, result);
   measure_handles(solid, *field, handles, u, result);
 
   const InversionCount inversion = worst_inversion(solid, *field, u, surface);

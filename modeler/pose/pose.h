@@ -29,7 +29,7 @@ struct PoseResult {
   Points handle_rest;     ///< where they were at rest [m]
   std::vector<HandleResidual> handles;
   double handle_max_error = 0, handle_rms_error = 0;  ///< over the diagonal
-  double volume_before = 0, volume_after = 0;         ///< signed, of the surface [m³]
+  double volume_before = 0, volume_after = 0;         ///< of the region [m³]
   double min_det_F = 1;  ///< over particles, quadrature points and surface vertices
   std::vector<Effect> effects;
   Report report;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "modeler/domain/disjoint_sets.h"
 #include "solver/core/rigid_motion.h"
 
 namespace supple {
@@ -20,47 +21,19 @@ constexpr double smallest_step = 1.0 / 8;
 /// Energies below this are rounding.
 constexpr double no_energy = 1e-9;
 
-/// Sets of particles that samples tie together.
-class Pieces {
- public:
-  explicit Pieces(Index particles) : parents_(static_cast<std::size_t>(particles)) {
-    std::iota(parents_.begin(), parents_.end(), 0);
-  }
-
-  void tie(const Samples& samples) {
-    for (Index k = 0; k < samples.size(); ++k)
-      for (int at = samples.row_begin(k); at < samples.row_end(k); ++at)
-        parents_[root(particle(samples, at))] =
-            static_cast<int>(root(particle(samples, samples.row_begin(k))));
-  }
-
-  /// True for the particles in one piece with any that the samples reach.
-  std::vector<bool> reached_by(const Samples& samples) {
-    std::vector<bool> roots(parents_.size(), false), reached(parents_.size());
-    for (const int i : samples.particles) roots[root(static_cast<std::size_t>(i))] = true;
-    for (std::size_t i = 0; i < parents_.size(); ++i) reached[i] = roots[root(i)];
-    return reached;
-  }
-
- private:
-  static std::size_t particle(const Samples& samples, int at) {
-    return static_cast<std::size_t>(samples.particles[static_cast<std::size_t>(at)]);
-  }
-
-  std::size_t root(std::size_t i) {
-    while (static_cast<std::size_t>(parents_[i]) != i)
-      i = static_cast<std::size_t>(parents_[i] = parents_[static_cast<std::size_t>(parents_[i])]);
-    return i;
-  }
-
-  std::vector<int> parents_;
-};
-
+/// Particles that samples tie to any that the handles reach.
 std::vector<bool> particles_held(const Samples& quadrature, const Samples& handles,
                                  Index particles) {
-  Pieces pieces(particles);
-  pieces.tie(quadrature);
-  return pieces.reached_by(handles);
+  DisjointSets pieces(static_cast<std::size_t>(particles));
+  for (Index k = 0; k < quadrature.size(); ++k)
+    for (int at = quadrature.row_begin(k); at < quadrature.row_end(k); ++at)
+      pieces.unite(quadrature.particles[static_cast<std::size_t>(at)],
+                   quadrature.particles[static_cast<std::size_t>(quadrature.row_begin(k))]);
+  std::vector<bool> roots(static_cast<std::size_t>(particles), false), held(roots.size());
+  for (const int i : handles.particles) roots[static_cast<std::size_t>(pieces.root(i))] = true;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    held[i] = roots[static_cast<std::size_t>(pieces.root(static_cast<int>(i)))];
+  return held;
 }
 
 double total_energy(const Report& report) {

@@ -1,15 +1,18 @@
 #include "modeler/pose/solid.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
-#include "modeler/domain/closed_region.h"
+#include "modeler/domain/beneath_surface.h"
+#include "modeler/domain/inside_cover.h"
+#include "modeler/domain/inside_detours.h"
+#include "modeler/domain/make_region.h"
 #include "modeler/domain/sample_particles.h"
 #include "modeler/domain/shape_error.h"
-#include "solver/field/supports.h"
 
 namespace supple {
 namespace {
@@ -24,16 +27,37 @@ constexpr double surface_share = 0.15;
 /// Surface samples are no wider than this share of the particles' spacing.
 constexpr double sample_width_over_spacing = 0.5;
 
-std::vector<bool> vertices_of_faces(const Mesh& mesh) {
-  std::vector<bool> used(static_cast<std::size_t>(mesh.positions.rows()), false);
+/// How far inside a surface points are taken where gaps may have no width, of the diagonal: little
+/// enough to be rounding, and well above that of the segments that part the walls.
+constexpr double beneath = 1e-10;
+
+/// Adds the time that it lives.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Those that faces use; all of them in a cloud.
+std::vector<bool> vertices_of_surface(const Mesh& mesh) {
+  std::vector<bool> used(static_cast<std::size_t>(mesh.positions.rows()), mesh.face_count() == 0);
   for (const int vertex : mesh.face_vertices) used[static_cast<std::size_t>(vertex)] = true;
   return used;
 }
 
-/// Of the vertices that faces use: others would distort every percent and every weight.
-Box box_of_faces(const Mesh& mesh) {
+/// Of the used vertices: others would distort every percent and every weight.
+Box box_of(const Mesh& mesh, const std::vector<bool>& used) {
   Box box;
-  for (const int vertex : mesh.face_vertices) box.extend(mesh.positions.row(vertex).transpose());
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i]) box.extend(mesh.positions.row(static_cast<Index>(i)).transpose());
   return box;
 }
 
@@ -48,43 +72,74 @@ ParticleSamplingOptions sampling_options(const ShapeSpec& spec, double diagonal,
 
 Mesh sized(const Mesh& mesh, const ShapeSpec& spec) {
   if (!spec.size) return mesh;
-  const Box box = box_of_faces(mesh);
+  const Box box = box_of(mesh, vertices_of_surface(mesh));
   const double scale = resolve(*spec.size, box.diagonal()) / box.diagonal();
   Mesh sized = mesh;
   sized.positions = (mesh.positions.rowwise() - box.center().transpose()) * scale;
+  sized.radii = mesh.radii * scale;
   return sized;
 }
 
 Solid::Solid(const Mesh& mesh, const ShapeSpec& spec)
     : triangulation_(triangulate(mesh)),
-      used_(vertices_of_faces(mesh)),
-      box_(box_of_faces(mesh)),
+      used_(vertices_of_surface(mesh)),
+      box_(box_of(mesh, used_)),
       origin_(box_.center().transpose()),
       unit_(box_.diagonal()) {
-  if (triangulation_.triangles.rows() == 0)
-    throw ShapeError(
-        "the shape has no faces, so it encloses no solid; point clouds cannot be posed yet");
-  if (!(unit_ > 0)) throw ShapeError("all vertices of the shape lie at one place");
+  if (!(unit_ > 0)) throw ShapeError("zero volume: all vertices of the shape lie at one place");
   if (!std::isfinite(unit_)) throw ShapeError("the shape is too large to compute with");
   vertices_ = scaled(mesh.positions);
-  sample(spec);
-  surface_ = sample_surface(vertices_, triangulation_.triangles,
-                            sample_width_over_spacing * particles_.spacing);
+  sample(mesh, spec);
+  find_surface();
 }
 
-void Solid::sample(const ShapeSpec& spec) {
-  auto region = std::make_unique<const ClosedRegion>(vertices_, triangulation_.triangles);
-  const SurfaceDefects& defects = region->defects();
-  if (defects.inside_out)
-    notes_.push_back("the faces point inwards; read as if they pointed outwards");
-  if (defects.degenerate_faces > 0)
-    notes_.push_back(
-        fmt::format("{} faces without area do not bound the solid", defects.degenerate_faces));
+void Solid::find_surface() {
+  const Triangles& triangles = triangulation_.triangles;
+  surface_ =
+      cloud_ ? cloud_samples(vertices_, *cloud_)
+             : sample_surface(vertices_, triangles, sample_width_over_spacing * particles_.spacing);
+  inner_vertices_ = vertices_;
+  if (!graph_ || !graph_->parted()) return;
+  if (cloud_) {
+    inner_vertices_ = points_beneath(vertices_, *cloud_, beneath);
+    surface_.positions = cloud_samples(inner_vertices_, *cloud_).positions;
+  } else {
+    inner_vertices_ = vertices_beneath(vertices_, triangles, beneath);
+    surface_.positions = samples_beneath(surface_, vertices_, triangles, beneath);
+  }
+}
+
+void Solid::keep(const CloudSurface& cloud, const Mesh& mesh) {
+  used_.assign(used_.size(), false);
+  for (const int point : cloud.points) used_[static_cast<std::size_t>(point)] = true;
+  box_ = box_of(mesh, used_);
+  cloud_ = cloud;
+}
+
+void Solid::sample(const Mesh& mesh, const ShapeSpec& spec) {
+  SolidRegion solid = make_region(mesh, vertices_, triangulation_.triangles);
+  notes_ = std::move(solid.notes);
+  reasons_ = std::move(solid.reasons);
+  if (solid.cloud) keep(*solid.cloud, mesh);
   const long unused = std::count(used_.begin(), used_.end(), false);
-  if (unused > 0)
+  if (unused > 0 && !cloud_)
     notes_.push_back(fmt::format("{} vertices that no face uses follow the solid", unused));
-  region_ = std::move(region);
-  particles_ = sample_particles(*region_, sampling_options(spec, unit_, unit_)).particles;
+  region_ = std::move(solid.region);
+  boundary_ = std::move(solid.boundary);
+  ParticleSampling sampling = sample_particles(*region_, sampling_options(spec, unit_, unit_));
+  particles_ = std::move(sampling.particles);
+  if (spec.coupling == CouplingKind::inside) couple_inside(sampling.samples);
+  for (std::string& note : solid.empty_parts(particles_.positions))
+    notes_.push_back(std::move(note));
+}
+
+void Solid::couple_inside(const VolumeSamples& samples) {
+  const Stopwatch stopwatch(coupling_seconds_);
+  graph_ = std::make_shared<const InsideGraph>(*region_, samples);
+  const InsideCover cover = cover_inside(*graph_, particles_);
+  if (cover.added > 0)
+    notes_.push_back(fmt::format(
+        "{} particles were added in parts that no other reaches by the way inside", cover.added));
 }
 
 Points Solid::spread_over_surface(double width) const {
@@ -105,11 +160,23 @@ double Solid::choose_particle_supports(KernelKind kernel) {
   cover.bottomRows(spread.rows()) = spread;
   Index row = particles_.size();
   for (std::size_t i = 0; i < used_.size(); ++i)
-    if (used_[i]) cover.row(row++) = vertices_.row(static_cast<Index>(i));
+    if (used_[i]) cover.row(row++) = inner_vertices_.row(static_cast<Index>(i));
 
-  Supports supports = choose_supports(particles_.positions, particles_.spacing, cover, kernel);
+  Supports supports = choose_supports(particles_.positions, particles_.spacing, cover, kernel, {},
+                                      detours_within_supports());
   particles_.supports = std::move(supports.radii);
+  detours_ = std::move(supports.detours);
   return static_cast<double>(supports.thin) / static_cast<double>(cover.rows());
+}
+
+DetoursWithin Solid::detours_within_supports() {
+  if (!graph_) return {};
+  const auto finder =
+      std::make_shared<InsideDetours>(graph_, particles_.positions, particles_.spacing);
+  return [this, finder](const Eigen::VectorXd& supports) {
+    const Stopwatch stopwatch(coupling_seconds_);
+    return finder->within(supports);
+  };
 }
 
 Quadrature Solid::quadrature(QuadratureKind kind) const {

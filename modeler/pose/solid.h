@@ -1,12 +1,19 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "io/mesh/mesh.h"
 #include "io/scene/shape_spec.h"
+#include "modeler/domain/carried_boundary.h"
+#include "modeler/domain/cloud_surface.h"
+#include "modeler/domain/inside_graph.h"
 #include "modeler/domain/surface_samples.h"
+#include "solver/core/report.h"
 #include "solver/core/rest_shape.h"
+#include "solver/field/detours.h"
 #include "solver/field/samples.h"
+#include "solver/field/supports.h"
 
 namespace supple {
 
@@ -20,7 +27,7 @@ struct Quadrature {
 /// nothing depends on units or on where it lies, filled with particles, and with a field.
 class Solid {
  public:
-  /// `mesh` bounds a solid. Errors: ShapeError.
+  /// `mesh`, or a cloud of points, bounds a solid. Errors: ShapeError.
   Solid(const Mesh& mesh, const ShapeSpec& spec);
 
   /// From the user's coordinates to ours and back.
@@ -32,12 +39,21 @@ class Solid {
 
   // In our coordinates:
   const Points& vertices() const { return vertices_; }
+  /// Just inside the surface where gaps cut the solid; else the vertices.
+  const Points& inner_vertices() const { return inner_vertices_; }
   const SurfaceSamples& surface() const { return surface_; }
   const Region& region() const { return *region_; }
+  const CarriedBoundary& boundary() const { return boundary_; }
   const Particles& particles() const { return particles_; }
 
-  const std::vector<bool>& used_vertices() const { return used_; }  ///< by any face
+  /// Between the particles and what they reach; null where straight ways stay inside.
+  const std::shared_ptr<const Detours>& detours() const { return detours_; }
+  double coupling_seconds() const { return coupling_seconds_; }  ///< that finding them took
+
+  /// By any face; of a cloud, those that lie on the surface.
+  const std::vector<bool>& used_vertices() const { return used_; }
   const std::vector<std::string>& notes() const { return notes_; }
+  const std::vector<Reason>& reasons() const { return reasons_; }  ///< that degrade any result
   Vec3 origin() const { return origin_.transpose(); }
   double unit() const { return unit_; }
 
@@ -51,7 +67,13 @@ class Solid {
   Quadrature quadrature(QuadratureKind kind) const;
 
  private:
-  void sample(const ShapeSpec& spec);
+  void sample(const Mesh& mesh, const ShapeSpec& spec);
+  /// Leaves the points out that do not lie on the surface.
+  void keep(const CloudSurface& cloud, const Mesh& mesh);
+  void find_surface();
+  /// How the solid hangs together inside; particles are added where none reaches by ways inside.
+  void couple_inside(const VolumeSamples& samples);
+  DetoursWithin detours_within_supports();
   /// Surface points about `width` apart, in our coordinates.
   Points spread_over_surface(double width) const;
 
@@ -60,11 +82,17 @@ class Solid {
   Box box_;
   Eigen::RowVector3d origin_;
   double unit_;
-  Points vertices_;
+  Points vertices_, inner_vertices_;
   std::unique_ptr<const Region> region_;
+  std::shared_ptr<const InsideGraph> graph_;  ///< null where ways are straight
+  CarriedBoundary boundary_;
+  std::optional<CloudSurface> cloud_;
   SurfaceSamples surface_;
   Particles particles_;
+  std::shared_ptr<const Detours> detours_;
+  double coupling_seconds_ = 0;
   std::vector<std::string> notes_;
+  std::vector<Reason> reasons_;
 };
 
 /// `mesh` scaled and centred as `spec.size` asks, or as it is.

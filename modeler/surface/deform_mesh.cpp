@@ -1,6 +1,8 @@
 #include "modeler/surface/deform_mesh.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
 #include <map>
 
 namespace supple {
@@ -51,21 +53,40 @@ class CornerNormals {
   std::map<std::pair<int, int>, int> rows_;
 };
 
+Mat3 cofactor(const Mat3& F) {
+  Mat3 result;
+  result.col(0) = F.col(1).cross(F.col(2));
+  result.col(1) = F.col(2).cross(F.col(0));
+  result.col(2) = F.col(0).cross(F.col(1));
+  return result;
+}
+
+/// Zero where the mesh has none of its vertices.
+Vec3 vertex_normal(const Mesh& mesh, Index vertex) {
+  if (mesh.normals.empty() || mesh.normals.per_corner()) return Vec3::Zero();
+  return mesh.normals.values.row(vertex).transpose();
+}
+
 }  // namespace
 
 Vec3 carry_normal(const Mat3& F, const Vec3& normal) {
-  Mat3 cofactor;
-  cofactor.col(0) = F.col(1).cross(F.col(2));
-  cofactor.col(1) = F.col(2).cross(F.col(0));
-  cofactor.col(2) = F.col(0).cross(F.col(1));
-  const Vec3 carried = cofactor * normal;
+  const Vec3 carried = cofactor(F) * normal;
   const double length = carried.norm();
   return length > 0 ? Vec3(carried * (normal.norm() / length)) : Vec3(Vec3::Zero());
+}
+
+double carry_radius(const Mat3& F, const Vec3& normal, double radius) {
+  const double length = normal.norm();
+  if (length == 0) return radius * std::cbrt(std::abs(F.determinant()));
+  return radius * std::sqrt((cofactor(F) * normal).norm() / length);
 }
 
 Mesh deform_mesh(const Mesh& mesh, const DeformedSurface& surface) {
   Mesh deformed = mesh;
   deformed.positions = surface.positions;
+  for (Index i = 0; i < mesh.radii.size(); ++i)
+    deformed.radii[i] = carry_radius(surface.gradients[static_cast<std::size_t>(i)],
+                                     vertex_normal(mesh, i), mesh.radii[i]);
   if (mesh.normals.empty()) return deformed;
   if (!mesh.normals.per_corner()) {
     for (Index i = 0; i < mesh.normals.values.rows(); ++i)

@@ -25,19 +25,38 @@ void smooth(const Points& particles, double usual, double smoothness, Eigen::Vec
   }
 }
 
+/// A point asks no more once supports grew this often without reaching it by another particle.
+constexpr int most_vain_rounds = 3;
+
 /// A covered point that asks for wider supports around it.
 struct Demand {
   Index point;
   double radius;  ///< of the supports around it [m]
+  std::size_t reached_by = 0;
+  int vain_rounds = 0;
 };
+
+/// Particles that a point is too far from, by the way inside.
+std::vector<int> hidden_from(const Vec3& x, double reach, const Detours* detours) {
+  std::vector<int> hidden;
+  if (!detours) return hidden;
+  std::vector<Detour> found;
+  detours->at(x, found);
+  for (const Detour& detour : found)
+    if (detour.length > reach) hidden.push_back(detour.particle);
+  return hidden;
+}
 
 /// Widens the supports of all particles that shall reach a demand's point.
 void meet(const std::vector<Demand>& demands, const Points& cover, const Points& particles,
-          Eigen::VectorXd& radii) {
+          const Detours* detours, Eigen::VectorXd& radii) {
   for (const Demand& demand : demands) {
     const double reach = reach_share * demand.radius;
+    const std::vector<int> hidden =
+        hidden_from(cover.row(demand.point).transpose(), reach, detours);
     for (Index i = 0; i < particles.rows(); ++i)
-      if ((particles.row(i) - cover.row(demand.point)).squaredNorm() <= reach * reach)
+      if ((particles.row(i) - cover.row(demand.point)).squaredNorm() <= reach * reach &&
+          !std::binary_search(hidden.begin(), hidden.end(), static_cast<int>(i)))
         radii[i] = std::max(radii[i], demand.radius);
   }
 }
@@ -60,17 +79,24 @@ std::vector<Demand> sparse_points(const Points& particles, const Points& cover, 
   return demands;
 }
 
-/// Those of `points` whose shape functions are too steep, or span too little.
+/// Those of `points` whose shape functions are too steep, or span too little, or which detours
+/// keep too many particles from.
 std::vector<Demand> steep_points(const MovingLeastSquares<3>& field, const Points& cover,
-                                 const std::vector<Demand>& points, double most_slope) {
+                                 std::vector<Demand> points, double most_slope,
+                                 const SupportOptions& options) {
   std::vector<char> steep(points.size());
+  const std::size_t least = field.detours() ? static_cast<std::size_t>(options.least_neighbors) : 0;
   parallel_chunks(static_cast<Index>(points.size()), points_per_chunk, [&](Index begin, Index end) {
     ShapeFunctions<3> at_x;
     for (Index k = begin; k < end; ++k) {
       const auto at = static_cast<std::size_t>(k);
       field.evaluate(cover.row(points[at].point).transpose(), Derivatives::first, at_x);
-      steep[at] = at_x.rank < MovingLeastSquares<3>::basis_size(BasisOrder::linear) ||
+      steep[at] = at_x.particles.size() < least ||
+                  at_x.rank < MovingLeastSquares<3>::basis_size(BasisOrder::linear) ||
                   at_x.gradients.rowwise().norm().sum() > most_slope;
+      Demand& demand = points[at];
+      demand.vain_rounds = at_x.particles.size() > demand.reached_by ? 0 : demand.vain_rounds + 1;
+      demand.reached_by = at_x.particles.size();
     }
   });
   std::vector<Demand> demands;
@@ -79,24 +105,46 @@ std::vector<Demand> steep_points(const MovingLeastSquares<3>& field, const Point
   return demands;
 }
 
+/// The demands that growing may still help, with wider supports.
+std::vector<Demand> grown(std::vector<Demand>& demands, const SupportOptions& options) {
+  std::vector<Demand> open;
+  for (Demand& demand : demands) {
+    if (demand.vain_rounds > most_vain_rounds) continue;
+    demand.radius *= options.growth;
+    open.push_back(demand);
+  }
+  return open;
+}
+
 }  // namespace
 
 Supports choose_supports(const Points& particles, double spacing, const Points& cover,
-                         KernelKind kernel, const SupportOptions& options) {
+                         KernelKind kernel, const SupportOptions& options,
+                         const DetoursWithin& detours_within) {
   const double usual = spacing * std::cbrt(options.neighbors * 3 / (4 * std::numbers::pi));
   Supports supports;
   supports.radii = Eigen::VectorXd::Constant(particles.rows(), usual);
-  meet(sparse_points(particles, cover, usual, options), cover, particles, supports.radii);
+  const auto find_detours = [&] {
+    if (!detours_within) return;
+    const double widest = options.widest_inside * usual;
+    if (supports.detours) supports.radii = supports.radii.cwiseMin(widest);
+    supports.detours = detours_within(supports.radii.cwiseMin(widest));
+    if (supports.detours) supports.radii = supports.radii.cwiseMin(widest);
+  };
+  find_detours();
+  meet(sparse_points(particles, cover, usual, options), cover, particles, supports.detours.get(),
+       supports.radii);
   smooth(particles, usual, options.smoothness, supports.radii);
 
   std::vector<Demand> demands;
   for (Index k = 0; k < cover.rows(); ++k) demands.push_back({k, usual});
   for (int round = 0; round <= options.rounds && !demands.empty(); ++round) {
-    const MovingLeastSquares<3> field(particles, supports.radii, {BasisOrder::linear, kernel});
-    demands = steep_points(field, cover, demands, options.most_slope / usual);
+    find_detours();
+    const MovingLeastSquares<3> field(particles, supports.radii, {BasisOrder::linear, kernel},
+                                      supports.detours);
+    demands = steep_points(field, cover, std::move(demands), options.most_slope / usual, options);
     if (round == options.rounds) break;
-    for (Demand& demand : demands) demand.radius *= options.growth;
-    meet(demands, cover, particles, supports.radii);
+    meet(grown(demands, options), cover, particles, supports.detours.get(), supports.radii);
     smooth(particles, usual, options.smoothness, supports.radii);
   }
   supports.thin = static_cast<long>(demands.size());

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include "solver/core/describe.h"
 #include "solver/core/export.h"
 #include "solver/field/moving_least_squares.h"
@@ -13,6 +16,7 @@ struct SupportOptions {
   double growth = 1.15;
   int rounds = 12;
   double smoothness = 1;
+  double widest_inside = 2.5;
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
@@ -26,22 +30,31 @@ struct SupportOptions {
     visit("rounds", self.rounds, {.doc = "rounds of growth at most", .min = 0, .max = 100});
     visit("smoothness", self.smoothness,
           {.doc = "by how much supports may differ over a distance", .min = 0.01});
+    visit("widest_inside", self.widest_inside,
+          {.doc = "supports where there are detours, at most, in usual ones", .min = 1});
   }
 };
 
 struct Supports {
   Eigen::VectorXd radii;  ///< h_i [m], n
   long thin = 0;          ///< points whose shape functions stayed too steep, or of short rank
+  std::shared_ptr<const Detours> detours;  ///< within these radii; null where there are none
 };
+
+/// Gives the detours within supports h_i [m]; null where there are none.
+using DetoursWithin =
+    std::function<std::shared_ptr<const Detours>(const Eigen::VectorXd& supports)>;
 
 /// Support radii that reach every point of `cover` [m] by enough particles in general position.
 ///
 /// A common radius h for the wanted number of neighbours at the mean `spacing` [m]. Where a point
 /// would have fewer than `least_neighbors`, or shape functions so steep that small displacements
 /// become large strains (its particles lie near a plane, or all on one side), the supports around
-/// it grow. Then they are smoothed so that |h_i − h_j| ≤ smoothness·|x_i − x_j|.
+/// it grow. Then they are smoothed so that |h_i − h_j| ≤ smoothness·|x_i − x_j|. Where there are
+/// detours, only particles that reach a point by the way inside count for it.
 SUPPLE_API Supports choose_supports(const Points& particles, double spacing, const Points& cover,
                                     KernelKind kernel = KernelKind::polynomial,
-                                    const SupportOptions& options = {});
+                                    const SupportOptions& options = {},
+                                    const DetoursWithin& detours = {});
 
 }  // namespace supple

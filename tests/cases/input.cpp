@@ -52,6 +52,47 @@ ProgramResult run_in(const TemporaryFolder& folder, std::vector<std::string> wor
   return Program(SUPPLE_PROGRAM, std::move(words), folder.path()).wait();
 }
 
+/// Two points with normals, in the forms in which scanners and converters write them.
+const std::pair<const char*, const char*> point_clouds[] = {
+    {"faceless.ply",
+     "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\n"
+     "property double z\nproperty float nx\nproperty float ny\nproperty float nz\nend_header\n"
+     "0.1 2 -3e-2 0 0 1\n4 5 6 0 1 0\n"},
+    {"no_faces.ply",
+     "ply\nformat ascii 1.0\nelement vertex 2\nproperty double x\nproperty double y\n"
+     "property double z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+     "element face 0\nproperty list uchar int vertex_indices\nend_header\n"
+     "0.1 2 -3e-2 0 0 1\n4 5 6 0 1 0\n"},
+    {"blanks.xyz", "  0.1\t2   -3e-2 0 0 1  \n\n   \n4 5 6 0 1 0\n\n"},
+    {"commas.xyz", "0.1,2,-3e-2,0,0,1\n4,5,6,0,1,0\n"},
+    {"commas_and_blanks.xyz", "0.1, 2, -3e-2, 0, 0, 1\r\n4, 5, 6, 0, 1, 0\r\n"},
+    {"semicolons.xyz", "0.1;2;-3e-2;0;0;1\n4;5;6;0;1;0\n"},
+    {"header.xyz", "x,y,z,nx,ny,nz\n0.1,2,-3e-2,0,0,1\n4,5,6,0,1,0\n"},
+    {"comment.xyz", "# a scan\n//X Y Z Nx Ny Nz\n0.1 2 -3e-2 0 0 1\n4 5 6 0 1 0\n"},
+    {"count.xyz", "2\n0.1 2 -3e-2 0 0 1\n4 5 6 0 1 0"}};
+
+void measure_point_clouds(Figures& figures) {
+  Points positions(2, 3), normals(2, 3);
+  positions << 0.1, 2, -3e-2, 4, 5, 6;
+  normals << 0, 0, 1, 0, 1, 0;
+  const TemporaryFolder folder;
+  int read = 0;
+  for (const char* figure : {"positions", "normals", "faces", "exit_code"}) figures[figure] = 0;
+  const auto grow = [&](const char* figure, double value) {
+    figures[figure] = std::max(figures[figure], value);
+  };
+  for (const auto& [name, text] : point_clouds) {
+    const Mesh cloud = read_mesh(folder.put(name, text));
+    if (cloud.positions.rows() != 2 || cloud.normals.values.rows() != 2) continue;
+    ++read;
+    grow("positions", (cloud.positions - positions).cwiseAbs().maxCoeff());
+    grow("normals", (cloud.normals.values - normals).cwiseAbs().maxCoeff());
+    grow("faces", cloud.face_count());
+    grow("exit_code", run_in(folder, {"render", name, "-o", "a.png", "--quiet"}).code);
+  }
+  figures["read"] = read / static_cast<double>(std::size(point_clouds));
+}
+
 void measure_wrong_keys(Figures& figures) {
   measure_answers("misspelt",
                   {{"shap: {mesh: a}", 1, 1, "did you mean 'shape'?"},
@@ -155,7 +196,8 @@ void measure_bad_outputs(Figures& figures) {
   figures["control_exit_code"] = control.wait().code;
 }
 
-constexpr Case cases[] = {{"K9", measure_wrong_keys}, {"K11", measure_bad_outputs}};
+constexpr Case cases[] = {
+    {"K6", measure_point_clouds}, {"K9", measure_wrong_keys}, {"K11", measure_bad_outputs}};
 
 }  // namespace
 

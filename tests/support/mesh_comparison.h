@@ -52,6 +52,7 @@ inline void expect_same_values(const Mesh& a, const Mesh& b, double tolerance) {
   EXPECT_LE(relative_difference(corner_values(a, a.texcoords), corner_values(b, b.texcoords)),
             tolerance);
   EXPECT_LE(relative_difference(a.colors.values, b.colors.values), tolerance);
+  EXPECT_LE(relative_difference(a.radii, b.radii), tolerance);
 }
 
 /// Equal in all that a mesh has but its notes.

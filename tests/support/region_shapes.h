@@ -2,14 +2,14 @@
 
 #include <functional>
 
-#include "modeler/domain/closed_region.h"
+#include "modeler/domain/mesh_region.h"
 #include "tests/support/shapes.h"
 
 /// Shapes that are hard to fill with particles, and regions of shapes.
 namespace supple {
 
-inline ClosedRegion region_of(const Mesh& mesh) {
-  return ClosedRegion(mesh.positions, triangles_of(mesh));
+inline MeshRegion region_of(const Mesh& mesh) {
+  return MeshRegion(mesh.positions, triangles_of(mesh));
 }
 
 /// `mesh` with each position x at `map(x)`.

@@ -149,6 +149,80 @@ TEST(RoundTrip, PointClouds) {
   EXPECT_EQ(folder.entries(), 0);
 }
 
+/// Colors of bytes, as formats for points have them.
+Mesh scan() {
+  Mesh cloud = without_faces(bar_with_values());
+  cloud.texcoords = {};
+  cloud.colors.values = (255 * cloud.colors.values).array().round() / 255;
+  cloud.colors.values.col(3).setOnes();
+  return cloud;
+}
+
+TEST(RoundTrip, FormatsForPoints) {
+  Mesh cloud = scan();
+  for (const char* name : {"a.pcd", "a.xyz", "a.ply"}) {
+    const Mesh back = through(cloud, name);
+    expect_same_mesh(cloud, back, float_rounding);
+    EXPECT_EQ(cloud.positions, back.positions) << name;  // to the last bit
+    const bool says_that_colors_ran_to_255 = name == std::string_view("a.xyz");
+    EXPECT_EQ(back.notes.size(), says_that_colors_ran_to_255 ? 1 : 0) << name;
+    expect_stable_bytes(cloud, name);
+  }
+  cloud.radii = Eigen::VectorXd::LinSpaced(cloud.positions.rows(), 0.1, 0.3);
+  for (const char* name : {"a.pcd", "a.ply"}) {
+    expect_same_mesh(cloud, through(cloud, name), float_rounding);
+    expect_stable_bytes(cloud, name);
+  }
+  cloud.radii = {};
+  cloud.colors = {};
+  expect_same_mesh(cloud, through(cloud, "a.pwn"), 0);
+  expect_stable_bytes(cloud, "a.pwn");
+  cloud.normals = {};
+  for (const char* name : {"a.pcd", "a.xyz"}) expect_same_mesh(cloud, through(cloud, name), 0);
+}
+
+TEST(RoundTrip, ScansFarFromTheOriginKeepDoubles) {
+  Mesh cloud = scan();
+  cloud.positions.rowwise() += Eigen::RowVector3d(596612.125, 243578.5, 73.03);
+  for (const char* name : {"a.pcd", "a.xyz", "a.ply", "a.pwn"})
+    EXPECT_EQ(through(cloud, name).positions, cloud.positions) << name;
+}
+
+TEST(RoundTrip, DarkAndFineColorsInXyz) {
+  Mesh cloud = scan();
+  for (const double brightest : {1.0 / 255, 0.0, 0.123}) {
+    cloud.colors.values.leftCols<3>().setConstant(brightest);
+    EXPECT_LE(relative_difference(through(cloud, "a.xyz").colors.values, cloud.colors.values),
+              1e-15);
+  }
+}
+
+TEST(RoundTrip, PcdKeepsAlpha) {
+  Mesh cloud = scan();
+  cloud.colors.values.col(3).setConstant(51.0 / 255);
+  expect_same_mesh(cloud, through(cloud, "a.pcd"), float_rounding);
+}
+
+TEST(WriteMesh, SaysWhatFormatsForPointsLeaveOut) {
+  Mesh mesh = bar_with_values();
+  mesh.texcoords = {};
+  EXPECT_EQ(left_out_by("a.pwn", mesh),
+            (std::vector<std::string>{"pwn cannot hold faces: only the vertices are written",
+                                      "pwn cannot hold colors", "pwn cannot hold alpha"}));
+  EXPECT_EQ(left_out_by("a.pcd", mesh),
+            (std::vector<std::string>{"pcd cannot hold faces: only the vertices are written",
+                                      "pcd cannot hold colors finer than bytes: rounded"}));
+  Mesh cloud = scan();
+  cloud.radii.setOnes(cloud.positions.rows());
+  EXPECT_EQ(left_out_by("a.xyz", cloud), std::vector<std::string>{"xyz cannot hold radii"});
+  EXPECT_TRUE(left_out_by("a.ply", cloud).empty());
+  cloud.normals = {};
+  const TemporaryFolder folder;
+  EXPECT_NE(message_of<OutputError>([&] { write_mesh(cloud, folder / "a.pwn"); }).find("normal"),
+            std::string::npos);
+  EXPECT_EQ(folder.entries(), 0);
+}
+
 TEST(RoundTrip, StlKeepsEveryTriangleInOrder) {
   const Mesh mesh = make_torus(2, 0.5, 12, 7);
   const Mesh back = through(mesh, "a.stl");
@@ -198,10 +272,10 @@ TEST(RoundTrip, PlyHoldsLargePolygons) {
 TEST(WriteMesh, RefusesWhatItCannotWrite) {
   const TemporaryFolder folder;
   const Mesh mesh = make_box({1, 1, 1});
-  for (const char* name : {"a.xyz", "a", "a.glb"}) {
+  for (const char* name : {"a.pts", "a", "a.glb"}) {
     EXPECT_FALSE(can_write_mesh(folder / name));
     const std::string message = message_of<OutputError>([&] { write_mesh(mesh, folder / name); });
-    EXPECT_NE(message.find("obj, off, ply, stl"), std::string::npos) << message;
+    EXPECT_NE(message.find("obj, off, ply, stl, pcd, pwn, xyz"), std::string::npos) << message;
   }
   Mesh far = mesh;
   far.positions *= 1e100;

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "io/mesh/mesh_files.h"
-#include "modeler/domain/closed_region.h"
+#include "modeler/domain/mesh_region.h"
 #include "modeler/domain/shape_error.h"
 #include "solver/core/parallel.h"
 #include "solver/core/random.h"
@@ -71,7 +71,7 @@ std::vector<Shape> shapes() {
 
 TEST(SampleParticles, CountsAreExactAndSpacingHolds) {
   for (const Shape& shape : shapes()) {
-    const ClosedRegion region = region_of(shape.mesh);
+    const MeshRegion region = region_of(shape.mesh);
     for (int count : {1, 8, 60, 200, 1000}) {
       SCOPED_TRACE(std::string(shape.name) + " " + std::to_string(count));
       const ParticleSampling sampling = sample(region, count);
@@ -83,7 +83,7 @@ TEST(SampleParticles, CountsAreExactAndSpacingHolds) {
 
 TEST(SampleParticles, GivenSpacingHolds) {
   for (const Shape& shape : shapes()) {
-    const ClosedRegion region = region_of(shape.mesh);
+    const MeshRegion region = region_of(shape.mesh);
     for (double share : {0.3, 0.08, 0.04}) {
       SCOPED_TRACE(std::string(shape.name) + " " + std::to_string(share));
       ParticleSamplingOptions options;
@@ -96,7 +96,7 @@ TEST(SampleParticles, GivenSpacingHolds) {
 }
 
 TEST(SampleParticles, SpacingOfABulkMeansItsCubeAParticle) {
-  const ClosedRegion region = region_of(make_bar({1, 1, 1}, {1, 1, 1}));
+  const MeshRegion region = region_of(make_bar({1, 1, 1}, {1, 1, 1}));
   ParticleSamplingOptions options;
   options.spacing = 0.1;
   const Index count = sample_particles(region, options).particles.size();
@@ -114,7 +114,7 @@ TEST(SampleParticles, BoxIsEven) {
 }
 
 TEST(SampleParticles, ThinPartsGetTheirShareOfVolume) {
-  const ClosedRegion region = region_of(make_dumbbell(0.06));
+  const MeshRegion region = region_of(make_dumbbell(0.06));
   const Particles p = sample(region, 200).particles;
   double bar = 0;
   for (Index i = 0; i < p.size(); ++i)
@@ -123,7 +123,7 @@ TEST(SampleParticles, ThinPartsGetTheirShareOfVolume) {
 }
 
 TEST(SampleParticles, SameWithOneThreadAndTwo) {
-  const ClosedRegion region = region_of(make_torus(1, 0.4, 48, 24));
+  const MeshRegion region = region_of(make_torus(1, 0.4, 48, 24));
   Points one;
   {
     const ThreadLimit limit(1);
@@ -151,7 +151,7 @@ TEST(SampleParticles, IndependentOfUnitsAndOffset) {
 TEST(SampleParticles, EveryPartOfAShapeIsFilled) {
   const Mesh ball = make_icosphere(1, 2);
   const auto small = [](const Vec3& x) -> Vec3 { return 0.4 * x + Vec3(1.5, 0, 0); };
-  const ClosedRegion region = region_of(joined(ball, mapped(ball, small)));
+  const MeshRegion region = region_of(joined(ball, mapped(ball, small)));
   const Particles p = sample(region, 60).particles;
   const int right = static_cast<int>((p.positions.col(0).array() > 1.05).count());
   EXPECT_GE(right, 1);
@@ -159,7 +159,7 @@ TEST(SampleParticles, EveryPartOfAShapeIsFilled) {
 }
 
 TEST(SampleParticles, HollowShapeStaysHollow) {
-  const ClosedRegion region =
+  const MeshRegion region =
       region_of(joined(make_icosphere(1, 3), turned(make_icosphere(0.8, 3))));
   expect_contract(region, sample(region, 100), 20000);
 }
@@ -177,7 +177,7 @@ TEST_P(SampleRealMeshes, ContractHolds) {
       std::filesystem::path(SUPPLE_SHARED_DATA) / "data" / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "skipped: no shared data";
   const Mesh mesh = read_mesh(path);
-  const ClosedRegion region(mesh.positions, triangulate(mesh).triangles);
+  const MeshRegion region(mesh.positions, triangulate(mesh).triangles);
   for (int count : {60, 200, 1000}) {
     SCOPED_TRACE(count);
     const auto start = std::chrono::steady_clock::now();

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "modeler/domain/closed_region.h"
+#include "modeler/domain/mesh_region.h"
 #include "solver/core/random.h"
 #include "tests/support/region_shapes.h"
 

@@ -33,6 +33,7 @@ TEST(Plan, NamesTheLineThatCausedEachEffect) {
                     "  weights: {volume: 0}\n"
                     "  surface: particle_gradients\n"),
             "+ quadrature: quadrature is auto, the default\n"
+            "+ coupling: coupling is inside, the default\n"
             "+ handles: scene.yaml:4:7: fix y<10% weight 2; "
             "scene.yaml:6:7: move y>90% by 10%,0,0 turn 0,0,1,30\n"
             "+ rigidity: weights.rigidity is 1, the default\n"
@@ -73,6 +74,7 @@ TEST(Plan, OfTheArmadilloScene) {
   const std::string where = path.string();
   EXPECT_EQ(described(make_plan(read_scene(path))),
             "+ quadrature: quadrature is auto, the default\n"
+            "+ coupling: coupling is inside, the default\n"
             "+ handles: " +
                 where + ":10:7: fix y<8%; " + where +
                 ":11:7: move y>85% and x>25% and x<75% by 15%,-5%,0 turn 0,0,1,-35\n"

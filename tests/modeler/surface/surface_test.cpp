@@ -98,6 +98,33 @@ TEST(CarryNormal, StaysPerpendicularToCarriedTangents) {
   EXPECT_GT(carried.dot((F * t1).cross(F * t2)), 0);
 }
 
+TEST(CarryRadius, GrowsWithTheRootOfTheDiscsArea) {
+  const Mat3 stretch = Vec3(4, 9, 16).asDiagonal();
+  EXPECT_NEAR(carry_radius(stretch, Vec3::UnitX(), 0.5), 0.5 * 12, 1e-12);
+  EXPECT_NEAR(carry_radius(stretch, 7 * Vec3::UnitZ(), 0.5), 0.5 * 6, 1e-12);
+  EXPECT_NEAR(carry_radius(stretch, Vec3::Zero(), 0.5), 0.5 * std::cbrt(576), 1e-12);
+  const Mat3 turn = Eigen::AngleAxisd(2, Vec3(1, 2, 2).normalized()).toRotationMatrix();
+  EXPECT_NEAR(carry_radius(turn * 3, Vec3(1, -1, 2).normalized(), 1), 3, 1e-12);
+  // The area of the parallelogram that two carried tangents span.
+  Mat3 F;
+  F << 1.2, 0.3, 0, -0.1, 0.9, 0.2, 0.1, 0, 1.1;
+  const Vec3 t1 = Vec3(1, 2, 0.5).normalized(), t2 = t1.cross(Vec3(0.3, -1, 2)).normalized();
+  EXPECT_NEAR(carry_radius(F, t1.cross(t2), 1), std::sqrt((F * t1).cross(F * t2).norm()), 1e-12);
+}
+
+TEST(DeformMesh, CarriesTheRadiiOfPoints) {
+  Mesh cloud;
+  cloud.positions = Points::Zero(2, 3);
+  cloud.radii = Eigen::Vector2d(1, 0.5);
+  DeformedSurface surface;
+  surface.positions = cloud.positions;
+  surface.gradients.assign(2, Vec3(1, 4, 16).asDiagonal());
+  EXPECT_LT((deform_mesh(cloud, surface).radii - Eigen::Vector2d(4, 2)).norm(), 1e-12);
+  cloud.normals.values.resize(2, 3);
+  cloud.normals.values << 0, 0, 1, 1, 0, 0;
+  EXPECT_LT((deform_mesh(cloud, surface).radii - Eigen::Vector2d(2, 4)).norm(), 1e-12);
+}
+
 /// A box whose faces have one normal each, shared by all their corners.
 Mesh box_with_face_normals() {
   Mesh mesh = make_quad_bar(size, {4, 4, 4});

@@ -1,4 +1,4 @@
-#include "modeler/domain/closed_region.h"
+#include "modeler/domain/mesh_region.h"
 
 #include <cmath>
 
@@ -26,12 +26,12 @@ std::string refusal(const Mesh& mesh) {
   return "";
 }
 
-TEST(ClosedRegion, BoxIsExactAtAllScalesAndFarAway) {
+TEST(MeshRegion, BoxIsExactAtAllScalesAndFarAway) {
   const Vec3 size(1, 2, 0.5);
   for (double scale : {1e-9, 1.0, 1e9})
     for (double offset : {0.0, 1e6}) {
       const Vec3 shift = Vec3(1, -2, 3) * offset * scale;
-      const ClosedRegion region = region_of(mapped(
+      const MeshRegion region = region_of(mapped(
           make_bar(size, {3, 2, 1}), [&](const Vec3& x) -> Vec3 { return scale * x + shift; }));
       const double slack = offset > 0 ? 1e-9 : 1e-13;
       EXPECT_NEAR(region.volume() / std::pow(scale, 3), 1, 10 * slack);
@@ -46,21 +46,21 @@ TEST(ClosedRegion, BoxIsExactAtAllScalesAndFarAway) {
     }
 }
 
-TEST(ClosedRegion, IcosphereAndTorusComeCloseToTheirSmoothShapes) {
+TEST(MeshRegion, IcosphereAndTorusComeCloseToTheirSmoothShapes) {
   const Mesh ball = make_icosphere(1, 4);
-  const ClosedRegion sphere = region_of(ball);
+  const MeshRegion sphere = region_of(ball);
   EXPECT_NEAR(sphere.volume(), 4 * std::numbers::pi / 3, 0.01);
   EXPECT_NEAR(sphere.signed_distance(Vec3::Zero()), -1, 3e-3);
   EXPECT_NEAR(sphere.signed_distance({0, 3, 0}), 2, 3e-3);
 
-  const ClosedRegion torus = region_of(make_torus(2, 0.5, 192, 96));
+  const MeshRegion torus = region_of(make_torus(2, 0.5, 192, 96));
   EXPECT_NEAR(torus.volume(), 2 * std::numbers::pi * std::numbers::pi * 2 * 0.25, 0.01);
   EXPECT_NEAR(torus.signed_distance({2, 0, 0}), -0.5, 1e-3);
   EXPECT_NEAR(torus.signed_distance({0, 0, 0}), 1.5, 1e-3);
 }
 
-TEST(ClosedRegion, DistanceHasAGradientOfUnitLength) {
-  const ClosedRegion region = region_of(make_torus(1, 0.4, 48, 24));
+TEST(MeshRegion, DistanceHasAGradientOfUnitLength) {
+  const MeshRegion region = region_of(make_torus(1, 0.4, 48, 24));
   Random random(11);
   int asked = 0;
   for (int i = 0; i < 400; ++i) {
@@ -78,9 +78,9 @@ TEST(ClosedRegion, DistanceHasAGradientOfUnitLength) {
   EXPECT_GT(asked, 350);  // all but those on the medial axis or next to the boundary
 }
 
-TEST(ClosedRegion, CavityIsOutside) {
+TEST(MeshRegion, CavityIsOutside) {
   const Mesh hollow = joined(make_icosphere(1, 3), turned(make_icosphere(0.5, 3)));
-  const ClosedRegion region = region_of(hollow);
+  const MeshRegion region = region_of(hollow);
   EXPECT_FALSE(region.contains({0, 0, 0}));
   EXPECT_TRUE(region.contains({0.75, 0, 0}));
   EXPECT_NEAR(region.signed_distance({0, 0, 0}), 0.5, 0.01);
@@ -88,37 +88,37 @@ TEST(ClosedRegion, CavityIsOutside) {
   EXPECT_NEAR(region.volume() / (4 * std::numbers::pi / 3 * (1 - 0.125)), 1, 0.02);
 }
 
-TEST(ClosedRegion, OverlappingPartsAreInside) {
+TEST(MeshRegion, OverlappingPartsAreInside) {
   const auto shifted = [](const Vec3& x) -> Vec3 { return x + Vec3(0.5, 0.25, 0.25); };
   const Mesh box = make_bar({1, 1, 1}, {1, 1, 1});
-  const ClosedRegion region = region_of(joined(box, mapped(box, shifted)));
+  const MeshRegion region = region_of(joined(box, mapped(box, shifted)));
   EXPECT_TRUE(region.contains({0.75, 0.5, 0.5}));
   EXPECT_NEAR(region.winding_number({0.75, 0.5, 0.5}), 2, 0.1);
   EXPECT_TRUE(region.contains({1.4, 0.5, 0.5}));
 }
 
-TEST(ClosedRegion, InsideOutIsTurned) {
-  const ClosedRegion region = region_of(turned(make_bar({1, 1, 1}, {2, 2, 2})));
+TEST(MeshRegion, InsideOutIsTurned) {
+  const MeshRegion region = region_of(turned(make_bar({1, 1, 1}, {2, 2, 2})));
   EXPECT_TRUE(region.defects().inside_out);
   EXPECT_TRUE(region.contains({0.5, 0.5, 0.5}));
   EXPECT_NEAR(region.volume(), 1, 1e-12);
   EXPECT_FALSE(region_of(make_bar({1, 1, 1}, {2, 2, 2})).defects().inside_out);
 }
 
-TEST(ClosedRegion, PartThatIsInsideOutIsTurnedButNoCavity) {
+TEST(MeshRegion, PartThatIsInsideOutIsTurnedButNoCavity) {
   const Mesh box = make_bar({1, 1, 1}, {1, 1, 1});
   const auto beside = [](const Vec3& x) -> Vec3 { return 0.5 * x + Vec3(2, 0, 0); };
   const auto within = [](const Vec3& x) -> Vec3 { return 0.5 * x + Vec3(0.25, 0.25, 0.25); };
-  const ClosedRegion two = region_of(joined(box, turned(mapped(box, beside))));
+  const MeshRegion two = region_of(joined(box, turned(mapped(box, beside))));
   EXPECT_TRUE(two.defects().inside_out);
   EXPECT_TRUE(two.contains({2.25, 0.25, 0.25}));
   EXPECT_NEAR(two.volume(), 1.125, 1e-12);
-  const ClosedRegion hollow = region_of(joined(box, turned(mapped(box, within))));
+  const MeshRegion hollow = region_of(joined(box, turned(mapped(box, within))));
   EXPECT_FALSE(hollow.defects().inside_out);
   EXPECT_NEAR(hollow.volume(), 0.875, 1e-12);
 }
 
-TEST(ClosedRegion, VerticesAtOnePlaceAreOneAndDegenerateFacesAreCounted) {
+TEST(MeshRegion, VerticesAtOnePlaceAreOneAndDegenerateFacesAreCounted) {
   const Mesh bar = make_bar({1, 1, 1}, {1, 1, 1});
   std::vector<Vec3> points;
   std::vector<std::vector<int>> faces;
@@ -132,22 +132,22 @@ TEST(ClosedRegion, VerticesAtOnePlaceAreOneAndDegenerateFacesAreCounted) {
   points.push_back(0.5 * (points[0] + points[1]));
   faces.push_back({0, 1, middle});     // no area
   points.emplace_back(100, 100, 100);  // unused
-  const ClosedRegion region = region_of(make_mesh(points, faces));
+  const MeshRegion region = region_of(make_mesh(points, faces));
   EXPECT_EQ(region.defects().degenerate_faces, 2);
   EXPECT_NEAR(region.volume(), 1, 1e-12);
   EXPECT_NEAR(region.bounds().diagonal(), std::sqrt(3), 1e-12);
 }
 
-TEST(ClosedRegion, TwoCubesThatShareAnEdgeAreClosed) {
+TEST(MeshRegion, TwoCubesThatShareAnEdgeAreClosed) {
   const Mesh box = make_bar({1, 1, 1}, {1, 1, 1});
   const auto across = [](const Vec3& x) -> Vec3 { return x + Vec3(1, 1, 0); };
-  const ClosedRegion region = region_of(joined(box, mapped(box, across)));
+  const MeshRegion region = region_of(joined(box, mapped(box, across)));
   EXPECT_NEAR(region.volume(), 2, 1e-12);
   EXPECT_TRUE(region.contains({1.5, 1.5, 0.5}));
   EXPECT_FALSE(region.contains({1.5, 0.5, 0.5}));
 }
 
-TEST(ClosedRegion, OpenSurfaceIsRefusedWithWords) {
+TEST(MeshRegion, OpenSurfaceIsRefusedWithWords) {
   Mesh bar = make_bar({1, 1, 1}, {2, 2, 2});
   bar.face_vertices.resize(bar.face_vertices.size() - 3);
   bar.face_starts.pop_back();
@@ -157,7 +157,7 @@ TEST(ClosedRegion, OpenSurfaceIsRefusedWithWords) {
   EXPECT_NE(words.find("fill the holes"), std::string::npos) << words;
 }
 
-TEST(ClosedRegion, FacesThatDisagreeAreRefusedWithWords) {
+TEST(MeshRegion, FacesThatDisagreeAreRefusedWithWords) {
   Mesh bar = make_bar({1, 1, 1}, {2, 2, 2});
   std::swap(bar.face_vertices[0], bar.face_vertices[1]);
   const std::string words = refusal(bar);
@@ -165,7 +165,7 @@ TEST(ClosedRegion, FacesThatDisagreeAreRefusedWithWords) {
   EXPECT_NE(words.find("normals consistent"), std::string::npos) << words;
 }
 
-TEST(ClosedRegion, NoVolumeIsRefusedWithWords) {
+TEST(MeshRegion, NoVolumeIsRefusedWithWords) {
   const std::vector<Vec3> quad = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   const Mesh doubled = make_mesh(quad, {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {3, 2, 0}});
   EXPECT_NE(refusal(doubled).find("no volume"), std::string::npos);
@@ -178,7 +178,7 @@ TEST(ClosedRegion, NoVolumeIsRefusedWithWords) {
   EXPECT_NE(refusal(make_mesh(quad, {})).find("no volume"), std::string::npos);
 }
 
-TEST(ClosedRegion, ThinPlateHasAVolume) {
+TEST(MeshRegion, ThinPlateHasAVolume) {
   EXPECT_NEAR(region_of(make_bar({100, 100, 1e-3}, {4, 4, 1})).volume(), 10, 1e-9);
 }
 

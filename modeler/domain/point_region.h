@@ -1,0 +1,59 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "modeler/domain/polygonize.h"
+#include "solver/core/rest_shape.h"
+
+namespace supple {
+
+/// What a point cloud gave as it was read as the surface of a solid.
+struct PointCloudReading {
+  std::vector<int> kept;           ///< points that are of the surface, ascending
+  Points normals;                  ///< unit length, outward, one for each kept point
+  Eigen::VectorXd areas;           ///< that each kept point stands for [m²]
+  long duplicates = 0;             ///< points left out because another has their place
+  long outliers = 0;               ///< points left out because they lie alone
+  long without_normal = 0;         ///< points left out because no normal could be told
+  bool normals_estimated = false;  ///< and turned by guess
+  bool turned = false;             ///< the normals given look inwards: read the other way
+  double noise = 0;                ///< typical distance of a point from the surface [m]
+  double covered = 0;              ///< share of the boundary that lies near points
+
+  std::vector<std::string> notes() const;  ///< a sentence each, for the user
+};
+
+/// The inside of a surface that is known by points. Near the points its boundary is the zero set
+/// of a partition of unity (Ohtake et al. 2003); elsewhere it goes where the winding number of the
+/// points' discs is one half (Barill et al. 2018), which closes openings.
+class PointRegion final : public Region {
+ public:
+  /// `positions` n×3, scaled to a diagonal of about 1; `normals` n×3 of any length, or empty:
+  /// then they are estimated.
+  /// Errors: ShapeError where the points are too few, flat or cover too little of the boundary.
+  explicit PointRegion(const Points& positions, const Points& normals = {});
+  ~PointRegion() override;
+
+  /// Continuous; near points also its gradient is.
+  double signed_distance(const Vec3& x) const override;
+  Vec3 gradient(const Vec3& x) const;
+
+  bool contains(const Vec3& x) const override;
+  Vec3 closest_boundary_point(const Vec3& x) const override;
+  bool connects(const Vec3& a, const Vec3& b) const override;
+  double volume() const override;
+  Box bounds() const override;
+
+  const PointCloudReading& reading() const;
+
+  /// The boundary, closed, its vertices on the zero set.
+  const Polygons& boundary() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;
+};
+
+}  // namespace supple
