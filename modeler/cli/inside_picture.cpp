@@ -23,7 +23,9 @@ constexpr std::array<std::pair<Inside, std::string_view>, 4> inside_names{{
 
 constexpr double veil = 0.3;  // opacity of a surface that shows what is inside
 constexpr double ball_over_spacing = 0.16;
-constexpr Color particle_color{0.75f, 0.12f, 0.10f};
+constexpr Color particle_color{0.75f, 0.12f, 0.10f}, dot_color{0.62f, 0.54f, 0.46f};
+constexpr Index most_dots = 3000;
+constexpr double dot_radius = 0.0012;  // of the diagonal
 
 /// From blue over white to red as `share` goes from 0 to 1.
 Color blue_to_red(double share) {
@@ -47,6 +49,15 @@ HalfSpace nearer_half(const Box& box, const Camera& camera) {
   towards.cwiseAbs().maxCoeff(&axis);
   const Vec3 normal = towards[axis] < 0 ? Vec3(-Vec3::Unit(axis)) : Vec3(Vec3::Unit(axis));
   return {normal, normal.dot(box.center())};
+}
+
+/// A cloud's points as a few dots, so that what lies between them is seen.
+Markers dots_of(const Points& points, const std::optional<HalfSpace>& left_out) {
+  const Index step = 1 + points.rows() / most_dots;
+  std::vector<Index> shown;
+  for (Index i = 0; i < points.rows(); i += step)
+    if (!left_out || left_out->normal.dot(points.row(i)) <= left_out->offset) shown.push_back(i);
+  return {points(shown, Eigen::all), dot_color, dot_radius * bounding_box(points).diagonal()};
 }
 
 // ---- supports -------------------------------------------------------------------------------
@@ -240,6 +251,9 @@ void show_inside(Inside inside, Solid& solid, const ShapeSpec& spec, const Camer
       add_slice(solid, camera, item);
       break;
   }
+  if (item.mesh->face_count() > 0) return;
+  item.markers.push_back(dots_of(item.mesh->positions, item.cut));
+  item.mesh = nullptr;
 }
 
 }  // namespace supple

@@ -127,9 +127,12 @@ Json thickness_json(const ThinParts& thin) {
 Json solid_json(const SolidVerdict& verdict) {
   Json json = {{"status", verdict.poses() ? "ok" : "refused"}, {"reason", verdict.reason}};
   json["notes"] = verdict.poses() ? verdict.solid->notes() : std::vector<std::string>();
+  json["degraded"] = Json::array();
   json["volume"] = Json();
-  if (verdict.poses())
-    json["volume"] = verdict.solid->region().volume() * std::pow(verdict.solid->unit(), 3);
+  if (!verdict.poses()) return json;
+  for (const Reason& reason : verdict.solid->reasons())
+    json["degraded"].push_back({{"reason", enum_name(reason.code)}, {"text", reason.detail}});
+  json["volume"] = verdict.solid->region().volume() * std::pow(verdict.solid->unit(), 3);
   return json;
 }
 

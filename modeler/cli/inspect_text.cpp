@@ -37,7 +37,8 @@ std::string counted(long count, std::string_view one, std::string_view many) {
 }
 
 std::string percent(double share) {
-  if (share > 0 && share < 0.0005) return "< 0.1 %";
+  if (share <= 0) return "none";
+  if (share < 0.0005) return "less than 0.1 %";
   return fmt::format("{:.{}f} %", 100 * share, share < 0.0995 ? 1 : 0);
 }
 
@@ -157,8 +158,7 @@ std::string state(const Topology& topology) {
 void add_surface(const MeshSurvey& survey, Buffer& text) {
   line(text, "surface", "{}{}", state(survey.topology),
        survey.loose ? " (loose triangles; those at one place taken for joined)" : "");
-  const bool duplicated = survey.defect(DefectKind::duplicated_vertices).count > 0;
-  if (duplicated && !survey.loose)
+  if (!survey.loose && state(survey.welded) != state(survey.topology))
     line(text, "", "with vertices at one place joined: {}", state(survey.welded));
   add_defects(survey, text);
   line(text, "", "area {:.4g}{}", survey.area,
@@ -210,6 +210,8 @@ void add_solid(const SolidVerdict& verdict, Buffer& text) {
   }
   line(text, "solid", "poses as a solid of volume {:.4g}",
        verdict.solid->region().volume() * std::pow(verdict.solid->unit(), 3));
+  for (const Reason& reason : verdict.solid->reasons())
+    line(text, "", "degraded: {}: {}", enum_name(reason.code), reason.detail);
   for (const std::string& note : verdict.solid->notes()) line(text, "", "{}", note);
 }
 
@@ -238,7 +240,7 @@ std::string particle_advice(const ThinParts& thin, double diagonal) {
       thin.particles, 100 * thin.spacing / diagonal, thin.spacing, percent(thin.thinner_share));
   if (thin.thinner_share <= most_thin_share) return lie;
   const double wanted = rounded_up(thin.wanted_particles);
-  if (wanted <= most_advised)
+  if (wanted <= 2 * most_advised)
     return fmt::format("{}: --particles {} or --spacing {:.2g}% follow it", lie, wanted,
                        std::floor(1000 * thin.wanted_spacing / diagonal) / 10);
   const double left = thin.thickness.share_below(spacing_of(thin, most_advised));

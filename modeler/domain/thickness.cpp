@@ -53,6 +53,7 @@ Thickness::Thickness(const std::vector<double>& values, const std::vector<double
     sum += areas[i];
     sorted_.push_back({values[i], sum / total});
   }
+  if (!sorted_.empty()) sorted_.back().area_up_to = 1;  // whatever the sums' rounding
 }
 
 Thickness Thickness::scaled(double factor) const {

@@ -86,6 +86,21 @@ SurfaceSamples corner_samples(const Mesh& mesh, const Triangulation& cut) {
   return samples;
 }
 
+/// What a selection of the shape counts: as a pose counts it for a cloud, finely for a mesh.
+SurfaceSamples selectable_samples(const Mesh& mesh, const Triangulation& cut,
+                                  const Inspection& inspection, const SurfaceSamples& corners) {
+  if (mesh.face_count() > 0)
+    return sample_surface(mesh.positions, cut.triangles, mark_width * inspection.box.diagonal());
+  SurfaceSamples samples = corners;
+  if (const auto& solid = inspection.verdict.solid) {
+    samples = solid->surface();
+    samples.positions = solid->restored(samples.positions);
+  }
+  const double area = inspection.points->area;  // none of a single point
+  if (area > 0) samples.areas *= area / samples.areas.sum();
+  return samples;
+}
+
 /// Different vertices among the corners that `selection` holds; often none where faces are large.
 long count_vertices(const Selection& selection, const SelectionContext& context,
                     const SurfaceSamples& corners) {
@@ -113,8 +128,9 @@ Inspection inspect(const Mesh& mesh, const ShapeSpec& spec, const OnStage& on_st
     }
   });
   stages.run("fill", [&] { inspection.verdict = judge(mesh, spec); });
-  if (inspection.verdict.poses())
-    stages.run("thickness", [&] { inspection.thin = find_thin_parts(*inspection.verdict.solid); });
+  if (!inspection.verdict.poses()) return inspection;
+  inspection.box = inspection.verdict.solid->box();
+  stages.run("thickness", [&] { inspection.thin = find_thin_parts(*inspection.verdict.solid); });
   return inspection;
 }
 
@@ -123,10 +139,7 @@ SelectedPart select_part(const Mesh& mesh, const Inspection& inspection, const S
   const Triangulation cut = triangulate(mesh);
   const SelectionContext context{mesh, cut, inspection.box, folder};
   const SurfaceSamples corners = corner_samples(mesh, cut);
-  const double width = mark_width * inspection.box.diagonal();
-  SurfaceSamples samples =
-      mesh.face_count() > 0 ? sample_surface(mesh.positions, cut.triangles, width) : corners;
-  if (inspection.points) samples.areas *= inspection.points->area / samples.areas.sum();
+  const SurfaceSamples samples = selectable_samples(mesh, cut, inspection, corners);
 
   SelectedPart part;
   const std::vector<int> chosen = select(selection, context, samples);
@@ -136,7 +149,8 @@ SelectedPart select_part(const Mesh& mesh, const Inspection& inspection, const S
   }
   part.area_share = part.area / samples.areas.sum();
   part.vertices = count_vertices(selection, context, corners);
-  part.samples = samples.positions(thin_samples(samples, chosen, width).indices, Eigen::all);
+  part.samples = samples.positions(
+      thin_samples(samples, chosen, mark_width * inspection.box.diagonal()).indices, Eigen::all);
   return part;
 }
 

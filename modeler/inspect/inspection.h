@@ -42,7 +42,7 @@ inline constexpr double most_thin_share = 0.05;
 struct Inspection {
   std::optional<MeshSurvey> mesh;      ///< of a mesh
   std::optional<PointSpacing> points;  ///< of a point cloud
-  Box box;                             ///< of what faces use, or of all points
+  Box box;                             ///< of what faces use, of a cloud's points; as poses see it
   SolidVerdict verdict;
   std::optional<ThinParts> thin;                        ///< where there is a solid
   std::vector<std::pair<std::string, double>> seconds;  ///< by stage

@@ -210,20 +210,22 @@ TEST(MeshDefects, AgreeWithTheTableOfTheSharedMeshes) {
   const std::filesystem::path folder = std::filesystem::path(SUPPLE_SHARED_DATA) / "data";
   std::ifstream table(folder / "README.md");
   if (!table) GTEST_SKIP() << "skipped: no shared data";
-  // Counts that depend on how n-gons are cut, on what counts as no area, or that take long.
-  const std::set<std::string> others = {"spot_quads.obj", "office_chair_ngons.obj",
-                                        "stanford_dragon_438k_raw.ply", "stanford_dragon_100k.ply",
-                                        "igea_134k.ply"};
+  // Their counts depend on how polygons are cut into triangles.
+  const std::set<std::string> others = {"spot_quads.obj", "office_chair_ngons.obj"};
+  constexpr long most_faces = 40000;  // the test shall be short
   int files = 0;
   const std::regex row(
       "^\\| (\\S+\\.(?:obj|off|ply|stl)) \\| [^|]* \\| (\\d+) \\| (\\d+) \\| ([^|]*) \\|.*");
   std::smatch cells;
   for (std::string line; std::getline(table, line);) {
     if (!std::regex_match(line, cells, row) || others.contains(cells[1])) continue;
+    if (std::stol(cells[3]) > most_faces) continue;
     const std::string name = cells[1], state = cells[4];
     const MeshSurvey survey = survey_mesh(read_mesh(folder / name));
     EXPECT_EQ(survey.faces, std::stol(cells[3])) << name;
-    if (!survey.loose) EXPECT_EQ(survey.vertices, std::stol(cells[2])) << name;
+    if (!survey.loose) {
+      EXPECT_EQ(survey.vertices, std::stol(cells[2])) << name;
+    }
     const std::pair<DefectKind, std::string> kinds[] = {
         {DefectKind::boundary_edges, "boundary edges"},
         {DefectKind::nonmanifold_edges, "non-manifold edges"},
@@ -239,8 +241,9 @@ TEST(MeshDefects, AgreeWithTheTableOfTheSharedMeshes) {
     EXPECT_EQ(survey.topology.watertight(), state.find("not watertight") == state.npos) << name;
     EXPECT_EQ(survey.topology.components, std::max(1L, table_count(state, "pieces"))) << name;
     std::smatch genus;
-    if (std::regex_search(state, genus, std::regex("genus (\\d+)")))
+    if (std::regex_search(state, genus, std::regex("genus (\\d+)"))) {
       EXPECT_EQ(survey.topology.genus(), std::stol(genus[1])) << name;
+    }
     ++files;
   }
   EXPECT_GT(files, 40);

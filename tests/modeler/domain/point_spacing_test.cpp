@@ -34,9 +34,8 @@ TEST(PointSpacing, KnowsTheAreaThatPointsLieOn) {
 }
 
 TEST(PointSpacing, OfALatticeIsItsStep) {
-  Points points(400, 3);
+  Points points(402, 3);
   for (int i = 0; i < 400; ++i) points.row(i) << 0.5 * (i % 20), 0.5 * (i / 20), 7;
-  points.conservativeResize(402, 3);
   points.row(400) = points.row(17);
   points.row(401) = points.row(18);
   const PointSpacing spacing = measure_spacing(points);
