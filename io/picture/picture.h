@@ -22,7 +22,8 @@ struct Markers {
   double radius = 0;  ///< [m]; 0: a share of the picture's size that reads well
 };
 
-/// One view of the picture, drawn left to right. A mesh without faces is drawn as small balls.
+/// One view of the picture, drawn left to right. Points with normals, of a mesh without faces, are
+/// drawn as discs that make up a surface, others as balls; of their radii where the mesh has them.
 struct PictureItem {
   const Mesh* mesh = nullptr;
   std::vector<Markers> markers = {};
