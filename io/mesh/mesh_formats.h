@@ -25,9 +25,10 @@ void write_obj(const Mesh& mesh, OutputFile& file);
 /// Header letters say what is there: ST (texture), C (colors), N (normals).
 void write_off(const Mesh& mesh, OutputFile& file);
 
-/// Binary, little-endian. Positions are float32, or double where needs_double() says so. Colors
-/// are bytes where all are multiples of 1/255, float32 otherwise. Where texture coordinates are
-/// per corner, a corner without any gets (0, 0).
+/// Binary, little-endian. Positions are float32, or double where float32 would move a vertex
+/// by more than 2⁻²² of the bounding box's diagonal, or a point of a cloud at all: measurements
+/// stay as they are. Colors are bytes where all are multiples of 1/255, float32 otherwise. Where
+/// texture coordinates are per corner, a corner without any gets (0, 0).
 void write_ply(const Mesh& mesh, OutputFile& file);
 
 /// Binary; polygons in triangles.

@@ -2,14 +2,16 @@
 
 namespace supple {
 
-bool needs_double(const Mesh& mesh) {
-  const Points& x = mesh.positions;
-  if (x.rows() == 0) return false;
-  const double diagonal = bounding_box(x).diagonal(), largest = x.cwiseAbs().maxCoeff();
+bool needs_double(const Points& points) {
+  if (points.rows() == 0) return false;
+  const double diagonal = bounding_box(points).diagonal();
+  const double largest = points.cwiseAbs().maxCoeff();
   // The bounds also keep float32 away from its overflow and its denormals.
-  if (largest * 0x1p-24 > diagonal * 0x1p-22 || largest > 0x1p100 || diagonal < 0x1p-80)
-    return true;
-  return mesh.face_count() == 0 && x.cast<float>().cast<double>() != x;
+  return largest * 0x1p-24 > diagonal * 0x1p-22 || largest > 0x1p100 || diagonal < 0x1p-80;
+}
+
+bool are_floats(const Points& points) {
+  return points.cast<float>().cast<double>() == points;
 }
 
 bool are_bytes(const Attribute<4>& colors) {

@@ -15,7 +15,8 @@ class PlyWriter {
   PlyWriter(const Mesh& mesh, OutputFile& file)
       : mesh_(mesh),
         file_(file),
-        doubles_(needs_double(mesh)),
+        doubles_(needs_double(mesh.positions) ||
+                 (mesh.face_count() == 0 && !are_floats(mesh.positions))),
         normals_(!mesh.normals.empty() && !mesh.normals.per_corner()),
         texcoords_(!mesh.texcoords.empty() && !mesh.texcoords.per_corner()),
         corner_texcoords_(!mesh.texcoords.empty() && mesh.texcoords.per_corner()),

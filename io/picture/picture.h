@@ -50,7 +50,8 @@ struct HalfSpace {
   double offset = 0;  ///< [m] where the normal is of unit length
 };
 
-/// One view of the picture, drawn left to right. A mesh without faces is drawn as small balls.
+/// One view of the picture, drawn left to right. Points with normals, of a mesh without faces, are
+/// drawn as discs that make up a surface, others as balls; of their radii where the mesh has them.
 struct PictureItem {
   const Mesh* mesh = nullptr;
   std::vector<Markers> markers = {};

@@ -23,7 +23,7 @@ class PcdWriter {
   PcdWriter(const Mesh& mesh, OutputFile& file)
       : mesh_(mesh),
         file_(file),
-        doubles_(needs_double(mesh)),
+        doubles_(needs_double(mesh.positions)),
         normals_(!mesh.normals.empty() && !mesh.normals.per_corner()),
         colors_(!mesh.colors.empty()),
         alpha_(colors_ && mesh.colors.values.col(3).minCoeff() < 1) {}

@@ -32,7 +32,8 @@ void write_xyz(const Mesh& mesh, OutputFile& file);
 /// Errors: OutputError where there are no normals.
 void write_pwn(const Mesh& mesh, OutputFile& file);
 
-/// Binary; positions as in PLY; colors are bytes.
+/// Binary; colors are bytes. Positions are float32, since PCL's points take nothing else, or
+/// double where that would move a point by more than 2⁻²² of the bounding box's diagonal.
 void write_pcd(const Mesh& mesh, OutputFile& file);
 
 }  // namespace supple

@@ -5,6 +5,7 @@
 #include "io/picture/ambient_occlusion.h"
 #include "io/picture/contact_shadow.h"
 #include "io/picture/painter.h"
+#include "io/picture/smooth_corners.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -27,6 +28,18 @@ void render_and_write(benchmark::State& state) {
   }
   state.counters["png_bytes"] =
       static_cast<double>(std::filesystem::file_size(folder / "picture.png"));
+}
+
+/// Limit: 100,000 splats in 0.5 s.
+void render_splats(benchmark::State& state) {
+  Mesh cloud = torus(state);
+  const SmoothCorners corners = smooth_corners(cloud.positions, triangles_of(cloud), 180);
+  cloud.normals.values.resize(cloud.positions.rows(), 3);
+  for (std::size_t k = 0; k < corners.vertex.size(); ++k)
+    cloud.normals.values.row(corners.vertex[k]) = corners.normal[k].normalized().transpose();
+  cloud.face_starts = {0};
+  cloud.face_vertices.clear();
+  for (auto _ : state) benchmark::DoNotOptimize(render({{.mesh = &cloud}}));
 }
 
 void prepare(benchmark::State& state) {
@@ -85,6 +98,7 @@ BENCHMARK(render_and_write)
     ->Arg(100'000)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
+BENCHMARK(render_splats)->Arg(100'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(prepare)->Arg(100'000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(open_context)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(draw)->Arg(100'000)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -42,12 +42,8 @@ TEST(SceneMistakes, InKeysAndStructure) {
       {"[1, 2]", "1:1", "the scene is a list, must be a map"},
       {"shap: {mesh: a}", "1:1", "unknown key 'shap'; allowed: shape, pose; did you mean 'shape'?"},
       {"shape:\n  mesh: a\n  partcles: 200", "3:3",
-       "unknown key 'partcles' in shape; allowed: mesh, units, particles, spacing, size, basis, "
-<<<<<<< HEAD
-       "kernel, quadrature, coupling; did you mean 'particles'?"},
-=======
-       "kernel, gradient, supports, quadrature; did you mean 'particles'?"},
->>>>>>> rank
+       "unknown key 'partcles' in shape; allowed: mesh, points, units, particles, spacing, size, "
+       "basis, kernel, gradient, supports, quadrature, coupling; did you mean 'particles'?"},
       {"shape: {mesh: a}\nshape: {mesh: b}", "2:1", "'shape' stands twice; it stands in line 1"},
       {"shape:\n  mesh: a\n  \"mesh\": b", "3:3", "'mesh' stands twice"},
       {"shape: a.off", "1:8", "shape is text, must be a map"},

@@ -12,6 +12,7 @@
 #include "solver/core/parallel.h"
 #include "tests/support/all_of.h"
 #include "tests/support/shapes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace supple {
 namespace {
@@ -251,6 +252,14 @@ TEST(Pose, BendsRealMeshes) {
     EXPECT_LT(std::abs(volume_change(result)), 0.05) << name;
     EXPECT_TRUE(result.mesh.positions.allFinite()) << name;
   }
+}
+
+TEST(Pose, FillsGapsOfPointCloudsOnly) {
+  const std::string message = message_of<UsageError>([] {
+    pose(make_box({1, 1, 1}), scene_with("  fill_gaps: true\n"));
+  });
+  EXPECT_NE(message.find("test:3:3: pose.fill_gaps: the shape has faces"), std::string::npos)
+      << message;
 }
 
 }  // namespace
