@@ -45,9 +45,9 @@ struct Supports {
   std::shared_ptr<const Detours> detours;  ///< within these radii; null where there are none
 };
 
-/// Gives the detours within supports h_i [m]; null where there are none.
+/// Gives the detours within supports h_i [m] that never exceed `widest`; null where there are none.
 using DetoursWithin =
-    std::function<std::shared_ptr<const Detours>(const Eigen::VectorXd& supports)>;
+    std::function<std::shared_ptr<const Detours>(const Eigen::VectorXd& supports, double widest)>;
 
 /// Support radii that reach every point of `cover` [m] by enough particles in general position.
 ///
