@@ -20,10 +20,8 @@ class Cover {
   Cover(const InsideGraph& graph, Particles& particles)
       : graph_(graph), particles_(particles), ways_(graph) {
     for (Index i = 0; i < particles_.size(); ++i) {
-      const int pocket = graph_.pocket_of(particles_.positions.row(i).transpose());
-      if (pocket >= 0)
-        begin(static_cast<int>(i),
-              pocket < graph_.seated() ? pocket : graph_.linked(pocket).front());
+      const int pocket = graph_.seated_pocket_of(particles_.positions.row(i).transpose());
+      if (pocket >= 0) begin(static_cast<int>(i), pocket);
     }
     ways_.walk({});
   }

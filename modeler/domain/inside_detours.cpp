@@ -12,8 +12,12 @@ namespace {
 
 constexpr Index particles_a_chunk = 16;
 
-/// Supports that grow shall not ask again each time: those that do will grow more.
-constexpr double foresight = 1.15, foresight_in_growth = 1.5;
+/// Supports that grew once will grow more: they shall not ask again each time.
+constexpr double foresight = 1.4;
+
+/// Controls beyond the support count at its rim, but little there: how far they are asked for, in
+/// cells.
+constexpr double margin = 0.5;
 
 /// Turns lie at seats, not at the boundary: ways are longer than they should by less than this
 /// share of the spacing, and as much is left out.
@@ -40,49 +44,36 @@ class InsideDetours::Finder {
     radius_ = radius;
     x_ = x;
     ways_.clear();
-    pockets_.clear();
-    if (look() == 0) return {};
-    ways_.walk({x, radius, 2 * radius});
-    return gather();
+    const int own = graph_.seated_pocket_of(x);
+    if (own < 0) return {};
+    ways_.begin(own, {(graph_.seat(own) - x).norm(), 0, x, own_clearance(own), 0});
+    ways_.walk({x, radius + graph_.width(), 2 * radius});
+    list_pockets();
+    const bool sees_all = std::all_of(pockets_.begin(), pockets_.end(), [&](int pocket) {
+      return ways_.to(pocket).found() && ways_.to(pocket).straight();
+    });
+    return sees_all ? std::vector<AtControl>() : gather();
   }
 
  private:
-  /// Which pockets the particle sees; returns how many it does not.
-  int look() {
-    const int own = graph_.pocket_of(x_);
-    if (own < 0) return 0;
-    int hidden = 0;
-    const double clearance = own_clearance(own);
+  /// The pockets of the cells around x whose middle is within the radius.
+  void list_pockets() {
+    pockets_.clear();
     const GridCell lower = graph_.cell_at(x_ - Vec3::Constant(radius_)),
                    upper = graph_.cell_at(x_ + Vec3::Constant(radius_));
     for (int i = lower[0]; i <= upper[0]; ++i)
       for (int j = lower[1]; j <= upper[1]; ++j)
         for (int k = lower[2]; k <= upper[2]; ++k) {
-          const Vec3 center = graph_.corner({i, j, k}) + Vec3::Constant(0.5 * graph_.width());
-          if ((center - x_).squaredNorm() > radius_ * radius_) continue;
+          const Vec3 middle = graph_.corner({i, j, k}) + Vec3::Constant(0.5 * graph_.width());
+          if ((middle - x_).squaredNorm() > radius_ * radius_) continue;
           const auto [begin, end] = graph_.pockets_in({i, j, k});
-          for (int pocket = begin; pocket < end; ++pocket)
-            if (!look_at(pocket, own, clearance)) ++hidden;
+          for (int pocket = begin; pocket < end; ++pocket) pockets_.push_back(pocket);
         }
-    return hidden;
   }
 
   /// x's distance to the boundary, or less.
   double own_clearance(int own) const {
-    if (own >= graph_.seated()) return 0;
     return std::max(0.0, graph_.seat_clearance(own) - (graph_.seat(own) - x_).norm());
-  }
-
-  bool look_at(int pocket, int own, double clearance) {
-    pockets_.push_back(pocket);
-    const Vec3 seat = graph_.seat(pocket);
-    const bool seen =
-        pocket == own || graph_.sees(seat, graph_.seat_clearance(pocket), x_, clearance);
-    if (seen)
-      ways_.begin(pocket, {(seat - x_).norm(), 0, x_, clearance, 0});
-    else
-      ways_.seek(pocket);
-    return seen;
   }
 
   /// Means of what the pockets say of the controls that they speak for.
@@ -164,19 +155,20 @@ class InsideDetours::Field final : public Detours {
   /// its cell.
   void list_particles(const Points& positions, const Eigen::VectorXd& radii) {
     listed_starts_ = {0};
-    std::vector<int> particles;
-    for (std::size_t p = 0; p < graph_->pockets().size(); ++p) {
-      particles.clear();
-      for (const int control : spline_->controls(static_cast<int>(p)))
-        for (int e = starts_[control]; e < starts_[control + 1]; ++e)
-          particles.push_back(entries_[e].particle);
-      std::sort(particles.begin(), particles.end());
-      particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
+    const double reach = std::sqrt(0.75) * graph_->width();
+    std::vector<int> seen_in(static_cast<std::size_t>(positions.rows()), -1);
+    for (int pocket = 0; pocket < static_cast<int>(graph_->pockets().size()); ++pocket) {
       const Vec3 middle =
-          graph_->corner(graph_->pockets()[p].cell) + Vec3::Constant(0.5 * graph_->width());
-      const double reach = std::sqrt(0.75) * graph_->width();
-      for (const int i : particles)
-        if ((positions.row(i).transpose() - middle).norm() < radii[i] + reach) listed_.push_back(i);
+          graph_->corner(graph_->pockets()[pocket].cell) + Vec3::Constant(0.5 * graph_->width());
+      for (const int control : spline_->controls(pocket))
+        for (int e = starts_[control]; e < starts_[control + 1]; ++e) {
+          const int i = entries_[e].particle;
+          if (seen_in[i] == pocket) continue;
+          seen_in[i] = pocket;
+          if ((positions.row(i).transpose() - middle).norm() < radii[i] + reach)
+            listed_.push_back(i);
+        }
+      std::sort(listed_.begin() + listed_starts_.back(), listed_.end());
       listed_starts_.push_back(static_cast<int>(listed_.size()));
     }
   }
@@ -215,20 +207,20 @@ InsideDetours::InsideDetours(std::shared_ptr<const InsideGraph> graph, const Poi
 
 InsideDetours::~InsideDetours() = default;
 
-std::shared_ptr<const Detours> InsideDetours::within(const Eigen::VectorXd& supports) {
+std::shared_ptr<const Detours> InsideDetours::within(const Eigen::VectorXd& supports,
+                                                     double widest) {
   std::vector<int> grown;
   for (Index i = 0; i < supports.size(); ++i)
     if (supports[i] > radii_[i]) {
       grown.push_back(static_cast<int>(i));
-      radii_[i] = (radii_[i] > 0 ? foresight_in_growth : foresight) * supports[i];
+      radii_[i] = std::min(widest, (radii_[i] > 0 ? foresight : 1) * supports[i]);
     }
   if (grown.empty()) return latest_;
   parallel_chunks(static_cast<Index>(grown.size()), particles_a_chunk, [&](Index begin, Index end) {
     Finder finder(*graph_, *spline_, slack * spacing_);
     for (Index k = begin; k < end; ++k)
-      // Controls a cell beyond the support still count at its rim.
-      lengths_[grown[k]] =
-          finder.find(positions_.row(grown[k]).transpose(), radii_[grown[k]] + graph_->width());
+      lengths_[grown[k]] = finder.find(positions_.row(grown[k]).transpose(),
+                                       radii_[grown[k]] + margin * graph_->width());
   });
   const bool none = std::all_of(lengths_.begin(), lengths_.end(),
                                 [](const auto& of_particle) { return of_particle.empty(); });

@@ -19,9 +19,10 @@ class InsideDetours {
   InsideDetours(std::shared_ptr<const InsideGraph> graph, const Points& positions, double spacing);
   ~InsideDetours();
 
-  /// The detours within support radii up to `supports` h_i [m] n. Null where no straight line
-  /// leaves the region. Particles whose support has not grown since the last call cost nothing.
-  std::shared_ptr<const Detours> within(const Eigen::VectorXd& supports);
+  /// The detours within support radii up to `supports` h_i [m] n, which will not grow beyond
+  /// `widest`. Null where no straight line leaves the region. Particles whose support has hardly
+  /// grown since the last call cost nothing.
+  std::shared_ptr<const Detours> within(const Eigen::VectorXd& supports, double widest);
 
  private:
   class Finder;

@@ -349,6 +349,11 @@ int InsideGraph::pocket_of(const Vec3& x) const {
   return pocket < 0 ? -1 : within(cell, pocket);
 }
 
+int InsideGraph::seated_pocket_of(const Vec3& x) const {
+  const int pocket = pocket_of(x);
+  return pocket < seated_ ? pocket : linked(pocket).front();
+}
+
 /// The pocket of the nearest station that sees x, of its own cell or else around. A point on the
 /// boundary may be hidden by its own triangle: it is looked at from just beside it then. That of
 /// the nearest station where none sees it.

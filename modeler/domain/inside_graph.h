@@ -56,6 +56,9 @@ class InsideGraph {
   /// The pocket that x, inside or on the boundary, belongs to; −1 far from the region.
   int pocket_of(const Vec3& x) const;
 
+  /// The same, of those with stations: for a place between them one that it is beside.
+  int seated_pocket_of(const Vec3& x) const;
+
   /// True where the straight way between two inside points stays inside. Clearances are their
   /// distances to the boundary, or less [m].
   bool sees(const Vec3& a, double clearance_a, const Vec3& b, double clearance_b) const;

@@ -7,19 +7,15 @@ namespace supple {
 InsideWays::InsideWays(const InsideGraph& graph)
     : graph_(graph),
       ways_(static_cast<std::size_t>(graph.seated())),
-      tried_(ways_.size(), std::numeric_limits<double>::infinity()),
-      sought_(ways_.size(), 0) {}
+      tried_(ways_.size(), std::numeric_limits<double>::infinity()) {}
 
 void InsideWays::clear() {
   for (const int pocket : touched_) {
     ways_[pocket] = {};
     tried_[pocket] = std::numeric_limits<double>::infinity();
-    sought_[pocket] = 0;
   }
   touched_.clear();
   queue_ = {};
-  missing_ = 0;
-  seeks_ = false;
 }
 
 void InsideWays::begin(int pocket, const Way& way) {
@@ -29,19 +25,13 @@ void InsideWays::begin(int pocket, const Way& way) {
   queue_.push({way, pocket, true});
 }
 
-void InsideWays::seek(int pocket) {
-  touched_.push_back(pocket);
-  sought_[pocket] = 1;
-  ++missing_;
-  seeks_ = true;
-}
-
 void InsideWays::walk(const Bounds& bounds) {
-  while (!queue_.empty() && (!seeks_ || missing_ > 0)) {
+  while (!queue_.empty()) {
     Step step = queue_.top();
     queue_.pop();
     if (!(step.way.length < ways_[step.pocket].length)) continue;
-    if (!step.seen && !stays_inside(step)) {
+    if (!step.seen && !graph_.sees(graph_.seat(step.pocket), graph_.seat_clearance(step.pocket),
+                                   step.way.turn, step.way.turn_clearance)) {
       step.way = by_neighbors(step.pocket);
       step.seen = true;
       if (!(step.way.length < ways_[step.pocket].length)) continue;
@@ -52,12 +42,6 @@ void InsideWays::walk(const Bounds& bounds) {
     }
     settle(step, bounds);
   }
-}
-
-bool InsideWays::stays_inside(const Step& step) const {
-  if (step.way.straight() && sought_[step.pocket]) return false;
-  return graph_.sees(graph_.seat(step.pocket), graph_.seat_clearance(step.pocket), step.way.turn,
-                     step.way.turn_clearance);
 }
 
 /// The best way with a turn at the seat of a pocket beside this one.
@@ -74,14 +58,12 @@ InsideWays::Way InsideWays::by_neighbors(int pocket) const {
 }
 
 void InsideWays::settle(const Step& step, const Bounds& bounds) {
-  if (sought_[step.pocket] && !ways_[step.pocket].found()) --missing_;
   ways_[step.pocket] = step.way;
   for (const int other : graph_.linked(step.pocket)) {
     const Vec3 seat = graph_.seat(other);
     const double length = step.way.length_to(seat);
     if (!(length < tried_[other])) continue;
-    const double outside = std::max(0.0, (seat - bounds.center).norm() - bounds.radius);
-    if (length + outside > bounds.longest) continue;
+    if (length > bounds.longest || (seat - bounds.center).norm() > bounds.radius) continue;
     if (tried_[other] == std::numeric_limits<double>::infinity()) touched_.push_back(other);
     tried_[other] = length;
     Way way = step.way;

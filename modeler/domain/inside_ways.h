@@ -26,7 +26,7 @@ class InsideWays {
     double length_to(const Vec3& x) const { return to_turn + (turn - x).norm(); }
   };
 
-  /// Ways that leave a ball are followed no farther than makes sense for ways that end in it.
+  /// Ways stay in a ball, and are no longer than `longest`.
   struct Bounds {
     Vec3 center = Vec3::Zero();
     double radius = std::numeric_limits<double>::infinity();
@@ -42,10 +42,7 @@ class InsideWays {
   /// A straight way to the seat of a pocket, known to stay inside.
   void begin(int pocket, const Way& way);
 
-  /// No way to this pocket's seat is straight; walking ends once all such have one.
-  void seek(int pocket);
-
-  /// Finds the ways to all pockets, or to those sought where there are any.
+  /// Finds the ways to all pockets within bounds.
   void walk(const Bounds& bounds);
 
   const Way& to(int pocket) const { return ways_[pocket]; }
@@ -60,17 +57,13 @@ class InsideWays {
     }
   };
 
-  bool stays_inside(const Step& step) const;
   Way by_neighbors(int pocket) const;
   void settle(const Step& step, const Bounds& bounds);
 
   const InsideGraph& graph_;
   std::vector<Way> ways_;
   std::vector<double> tried_;  ///< shortest way put on the queue
-  std::vector<char> sought_;
   std::vector<int> touched_;
-  int missing_ = 0;
-  bool seeks_ = false;
   std::priority_queue<Step> queue_;
 };
 

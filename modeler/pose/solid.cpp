@@ -174,9 +174,9 @@ DetoursWithin Solid::detours_within_supports() {
   if (!graph_) return {};
   const auto finder =
       std::make_shared<InsideDetours>(graph_, particles_.positions, particles_.spacing);
-  return [this, finder](const Eigen::VectorXd& supports) {
+  return [this, finder](const Eigen::VectorXd& supports, double widest) {
     const Stopwatch stopwatch(coupling_seconds_);
-    return finder->within(supports);
+    return finder->within(supports, widest);
   };
 }
 

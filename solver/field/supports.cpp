@@ -172,7 +172,7 @@ Supports choose_supports(const Points& particles, double spacing, const Points& 
     if (!detours_within) return;
     const double widest = options.widest_inside * usual;
     if (supports.detours) supports.radii = supports.radii.cwiseMin(widest);
-    supports.detours = detours_within(supports.radii.cwiseMin(widest));
+    supports.detours = detours_within(supports.radii.cwiseMin(widest), widest);
     if (supports.detours) supports.radii = supports.radii.cwiseMin(widest);
   };
   find_detours();

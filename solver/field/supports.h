@@ -51,9 +51,9 @@ struct Supports {
   std::shared_ptr<const Detours> detours;  ///< within these radii; null where there are none
 };
 
-/// Gives the detours within supports h_i [m]; null where there are none.
+/// Gives the detours within supports h_i [m] that never exceed `widest`; null where there are none.
 using DetoursWithin =
-    std::function<std::shared_ptr<const Detours>(const Eigen::VectorXd& supports)>;
+    std::function<std::shared_ptr<const Detours>(const Eigen::VectorXd& supports, double widest)>;
 
 /// Stretches N_i, of determinant 1, that follow how the particles within `radius` [m] of each
 /// spread: axes as the roots of their covariance's eigenvalues, the longest at most `most_stretch`

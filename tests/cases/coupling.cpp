@@ -37,7 +37,7 @@ struct Body {
     graph = std::make_shared<const InsideGraph>(region, sampling.samples);
     cover_inside(*graph, particles);
     supports = Eigen::VectorXd::Constant(particles.size(), h);
-    detours = InsideDetours(graph, particles.positions, particles.spacing).within(supports);
+    detours = InsideDetours(graph, particles.positions, particles.spacing).within(supports, h);
   }
 
   Field field(BasisOrder order) const { return {particles.positions, supports, {order}, detours}; }
