@@ -55,4 +55,7 @@ struct Triangulation {
 };
 Triangulation triangulate(const Mesh& mesh);
 
+/// The vertices alone, with what belongs to each of them.
+Mesh points_of(Mesh mesh);
+
 }  // namespace supple

@@ -172,4 +172,14 @@ Triangulation triangulate(const Mesh& mesh) {
   return result;
 }
 
+Mesh points_of(Mesh mesh) {
+  mesh.face_starts = {0};
+  mesh.face_vertices.clear();
+  mesh.tags.clear();
+  mesh.material_libraries.clear();
+  if (mesh.normals.per_corner()) mesh.normals = {};
+  if (mesh.texcoords.per_corner()) mesh.texcoords = {};
+  return mesh;
+}
+
 }  // namespace supple

@@ -23,7 +23,7 @@ std::span<const std::string_view> later_keys(const Scene&) {
 }
 
 std::span<const std::string_view> later_keys(const ShapeSpec&) {
-  static constexpr std::array<std::string_view, 3> keys{"points", "box", "target_error"};
+  static constexpr std::array<std::string_view, 2> keys{"box", "target_error"};
   return keys;
 }
 
@@ -34,11 +34,16 @@ std::span<const std::string_view> later_keys(const PoseSpec&) {
 
 void check_rules(const Scene& scene, const SceneItem& item) {
   if (scene.pose && !find_item(item, "shape"))
-    complain(scene.pose->place, "shape is missing: a pose needs shape: {mesh: file}");
+    complain(scene.pose->place,
+             "shape is missing: a pose needs shape: {mesh: file} or {points: file}");
 }
 
 void check_rules(const ShapeSpec& shape, const SceneItem& item) {
-  if (shape.mesh.empty()) complain(shape.place, "shape.mesh is missing: the file with the mesh");
+  if (shape.file().empty())
+    complain(shape.place, "shape.mesh is missing: the file with the mesh, or shape.points");
+  if (!shape.mesh.empty() && !shape.points.empty())
+    complain(find_item(item, "points")->place,
+             "shape.points: shape.mesh is given too; allowed: one of them");
   if (shape.particles && shape.spacing)
     complain(find_item(item, "spacing")->place,
              "shape.spacing: shape.particles is given too; allowed: one of them");

@@ -19,7 +19,8 @@ EnumNames<FileUnit> enum_names(FileUnit);
 /// What is to be deformed, and how finely.
 struct ShapeSpec {
   Place place;
-  std::string mesh;  ///< path, relative to the scene file
+  std::string mesh;    ///< path, relative to the scene file; this or `points` is given
+  std::string points;  ///< the same, of a point cloud
   FileUnit units = FileUnit::metre;
   std::optional<int> particles;  ///< not together with spacing
   std::optional<Length> spacing;
@@ -28,11 +29,15 @@ struct ShapeSpec {
   KernelKind kernel = KernelKind::polynomial;
   QuadratureKind quadrature = QuadratureKind::automatic;
 
+  const std::string& file() const { return points.empty() ? mesh : points; }
+
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     visit("mesh", self.mesh, {.doc = "triangle or polygon mesh: OBJ, PLY, OFF, STL"});
+    visit("points", self.points,
+          {.doc = "point cloud: XYZ, PWN, PCD, or the vertices of a mesh file; instead of mesh"});
     visit("units", self.units,
-          {.doc = "unit of the mesh file and of lengths; a pose is the same "
+          {.doc = "unit of the shape's file and of lengths; a pose is the same "
                   "in all"});
     visit("particles", self.particles,
           {.doc = "number of particles that carry the field (default 200)", .min = 1, .max = 1e6});

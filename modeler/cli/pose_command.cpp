@@ -55,6 +55,15 @@ std::vector<std::string> size_notes(const Mesh& shape, const ShapeSpec& spec) {
                   size)};
 }
 
+/// The shape as the scene names it: a file given as points is one, whatever faces it holds.
+Mesh read_shape(const Scene& scene) {
+  Mesh shape = read_mesh(scene.folder / scene.shape.file());
+  if (scene.shape.points.empty() || shape.face_count() == 0) return shape;
+  shape.notes.push_back(
+      fmt::format("{} faces are left out: shape.points takes vertices alone", shape.face_count()));
+  return points_of(std::move(shape));
+}
+
 PoseResult solve(const Mesh& shape, const Scene& scene, ProgressLine& line) {
   const Progress progress = [&](const std::string& stage, double share) {
     line.show(stage, share);
@@ -139,7 +148,7 @@ int run_pose(Words words) {
   if (!scene.pose) scene.pose.emplace().place = scene.shape.place;
   arguments.check_outputs();
   line.show("load", 0);
-  const Mesh shape = read_mesh(scene.folder / scene.shape.mesh);
+  const Mesh shape = read_shape(scene);
   run.load_seconds = watch.seconds();
 
   const auto write_report = [&] {

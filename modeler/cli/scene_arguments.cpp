@@ -16,7 +16,8 @@ constexpr const char* shape_scene = "shape: {mesh: SHAPE}\npose: {}\n";
 
 /// Keys that are not options of their own: what the command line says in other words, and
 /// shape.size, since --size is the picture's.
-constexpr std::array<std::string_view, 3> not_options{"shape.mesh", "pose.handles", "shape.size"};
+constexpr std::array<std::string_view, 4> not_options{"shape.mesh", "shape.points", "pose.handles",
+                                                      "shape.size"};
 
 template <class T>
 struct Unwrapped {
@@ -55,8 +56,10 @@ std::string value_form() {
 }  // namespace
 
 void SceneArguments::declare(CommandLine& line) {
-  line.positional("SHAPE", "a mesh (OBJ, PLY, OFF, STL), or a scene (.yaml)",
-                  [this](const std::string& value) { path_ = value; });
+  line.positional(
+      "SHAPE",
+      "a mesh (OBJ, PLY, OFF, STL), a point cloud (PLY, XYZ, PWN, PCD), or a scene (.yaml)",
+      [this](const std::string& value) { path_ = value; });
   handles_.declare(line);
   line.begin_group("Shape");
   declare_knobs<ShapeSpec>(line, "shape", "--");
@@ -139,7 +142,7 @@ Scene SceneArguments::read() const {
 
 Scene SceneArguments::read_shape(const SceneOverrides& overrides) const {
   for (const auto& [key, value] : overrides)
-    if (key.starts_with("pose.handles") || key == "shape.mesh")
+    if (key.starts_with("pose.handles") || key == "shape.mesh" || key == "shape.points")
       throw UsageError(
           fmt::format("--set {}: only with a scene file; a shape has its handles from "
                       "--fix and --move",

@@ -104,29 +104,43 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
   return report;
 }
 
+/// A fine surface has millions of samples: their rows are built for so many at a time.
+constexpr std::size_t samples_at_a_time = 16384;
+
+/// How far each of a handle's surface samples is from where it was led.
+std::vector<double> misses(const Solid& solid, const SolidField& field, const PoseHandle& handle,
+                           const Points& u) {
+  std::vector<double> misses;
+  misses.reserve(handle.selected.size());
+  for (std::size_t begin = 0; begin < handle.selected.size(); begin += samples_at_a_time) {
+    const std::size_t count = std::min(samples_at_a_time, handle.selected.size() - begin);
+    Points rest(static_cast<Index>(count), 3);
+    for (std::size_t k = 0; k < count; ++k)
+      rest.row(static_cast<Index>(k)) = solid.surface().positions.row(handle.selected[begin + k]);
+    const Samples samples = sample_field(field.mls, rest, SampleContent::values);
+    for (Index k = 0; k < rest.rows(); ++k)
+      misses.push_back((samples.position(k, u) - handle.path(rest.row(k).transpose(), 1)).norm());
+  }
+  return misses;
+}
+
 /// Misses of the handles over all their surface samples, over the diagonal.
 void measure_handles(const Solid& solid, const SolidField& field, const HandleSamples& handles,
                      const Points& u, PoseResult& result) {
-  const Points& points = solid.surface().positions;
   double all_squares = 0;
-  long all_samples = 0;
+  std::size_t all_samples = 0;
   for (const PoseHandle& handle : handles.handles()) {
-    Points rest(static_cast<Index>(handle.selected.size()), 3);
-    for (std::size_t k = 0; k < handle.selected.size(); ++k)
-      rest.row(static_cast<Index>(k)) = points.row(handle.selected[k]);
-    const Samples samples = sample_field(field.mls, rest, SampleContent::values);
     HandleResidual residual{handle.spec->place, handle.spec->selection().text,
-                            static_cast<int>(rest.rows()), 0, 0};
+                            static_cast<int>(handle.selected.size()), 0, 0};
     double squares = 0;
-    for (Index k = 0; k < rest.rows(); ++k) {
-      const double miss = (samples.position(k, u) - handle.path(rest.row(k).transpose(), 1)).norm();
+    for (const double miss : misses(solid, field, handle, u)) {
       residual.max_error = std::max(residual.max_error, miss);
       squares += miss * miss;
     }
-    residual.rms_error = std::sqrt(squares / static_cast<double>(rest.rows()));
+    residual.rms_error = std::sqrt(squares / residual.samples);
     result.handle_max_error = std::max(result.handle_max_error, residual.max_error);
     all_squares += squares;
-    all_samples += rest.rows();
+    all_samples += handle.selected.size();
     result.handles.push_back(std::move(residual));
   }
   if (all_samples > 0)

@@ -1,6 +1,7 @@
 #include "solver/field/blocked_field.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "solver/core/check.h"
 #include "solver/core/parallel.h"
@@ -13,15 +14,6 @@ constexpr Index blocks_per_chunk = 64;
 
 }  // namespace
 
-/// Some consecutive blocks, before all are put together.
-struct BlockedField::Chunk {
-  std::vector<int> block_sizes;
-  std::vector<int> particles;
-  std::vector<float> weights, slopes;
-  Index entries = 0;
-  long uncovered = 0, rank_lost = 0;
-};
-
 BlockedField::BlockedField(const MovingLeastSquares<3>& field, const Points& points)
     : size_(points.rows()), order_(spatial_order(points)) {
   const Index block_count = (size_ + lanes - 1) / lanes;
@@ -30,27 +22,18 @@ BlockedField::BlockedField(const MovingLeastSquares<3>& field, const Points& poi
   for (std::size_t at = 0; at < order_.size(); ++at)
     if (order_[at] >= 0) rest_[at] = points.row(order_[at]).transpose();
 
-  std::vector<Chunk> chunks(
-      static_cast<std::size_t>((block_count + blocks_per_chunk - 1) / blocks_per_chunk));
+  chunks_.resize(static_cast<std::size_t>((block_count + blocks_per_chunk - 1) / blocks_per_chunk));
   parallel_chunks(block_count, blocks_per_chunk, [&](Index begin, Index end) {
-    chunks[static_cast<std::size_t>(begin / blocks_per_chunk)] =
+    chunks_[static_cast<std::size_t>(begin / blocks_per_chunk)] =
         build_chunk(field, points, begin, end);
   });
-  std::size_t listed = 0;
-  for (const Chunk& chunk : chunks) listed += chunk.particles.size();
-  particles_.reserve(listed);
-  weights_.reserve(listed * lanes);
-  slopes_.reserve(listed * lanes * 3);
-  for (Chunk& chunk : chunks) {
-    append(chunk);
-    chunk = {};  // give its memory back before the next one is copied
-  }
 }
 
 BlockedField::Chunk BlockedField::build_chunk(const MovingLeastSquares<3>& field,
                                               const Points& points, Index first_block,
                                               Index last_block) const {
   Chunk chunk;
+  chunk.first_block = first_block;
   for (Index block = first_block; block < last_block; ++block) {
     const Index first_lane = block * lanes;
     const Index count = std::min<Index>(lanes, size_ - first_lane);
@@ -59,6 +42,9 @@ BlockedField::Chunk BlockedField::build_chunk(const MovingLeastSquares<3>& field
       block_points.row(lane) = points.row(order_[static_cast<std::size_t>(first_lane + lane)]);
     add_block(sample_field(field, block_points, SampleContent::values_and_gradients), chunk);
   }
+  chunk.particles.shrink_to_fit();
+  chunk.weights.shrink_to_fit();
+  chunk.slopes.shrink_to_fit();
   return chunk;
 }
 
@@ -68,8 +54,8 @@ void BlockedField::add_block(const Samples& rows, Chunk& chunk) {
   shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
 
   const std::size_t first = chunk.particles.size();
-  chunk.block_sizes.push_back(static_cast<int>(shared.size()));
   chunk.particles.insert(chunk.particles.end(), shared.begin(), shared.end());
+  chunk.block_starts.push_back(static_cast<int>(chunk.particles.size()));
   chunk.weights.resize(chunk.particles.size() * lanes, 0.0f);
   chunk.slopes.resize(chunk.particles.size() * lanes * 3, 0.0f);
   for (Index lane = 0; lane < rows.size(); ++lane)
@@ -88,117 +74,114 @@ void BlockedField::add_block(const Samples& rows, Chunk& chunk) {
   chunk.rank_lost += rows.rank_lost;
 }
 
-void BlockedField::append(const Chunk& chunk) {
-  for (const int size : chunk.block_sizes) block_starts_.push_back(block_starts_.back() + size);
-  particles_.insert(particles_.end(), chunk.particles.begin(), chunk.particles.end());
-  weights_.insert(weights_.end(), chunk.weights.begin(), chunk.weights.end());
-  slopes_.insert(slopes_.end(), chunk.slopes.begin(), chunk.slopes.end());
-  entries_ += chunk.entries;
-  uncovered_ += chunk.uncovered;
-  rank_lost_ += chunk.rank_lost;
-}
-
-template <class Body>
-void BlockedField::for_each_block(const Body& body) const {
-  parallel_chunks(blocks(), blocks_per_chunk, [&](Index begin, Index end) {
-    for (Index block = begin; block < end; ++block) body(block);
-  });
-}
-
-template <class Body>
-void BlockedField::for_each_point(Index block, const Body& body) const {
-  for (int lane = 0; lane < lanes; ++lane) {
-    const auto at = static_cast<std::size_t>(block * lanes + lane);
-    if (order_[at] >= 0) body(lane, order_[at], rest_[at]);
-  }
-}
-
-void BlockedField::store_gradients(Index block, const RigidMotion& rigid,
-                                   const std::array<Lanes, 9>& sum, std::vector<Mat3>& out) const {
-  for_each_point(block, [&](int lane, int point, const Vec3&) {
-    Mat3 F = rigid.R;
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) F(a, b) += sum[static_cast<std::size_t>(3 * a + b)][lane];
-    out[static_cast<std::size_t>(point)] = F;
+template <std::size_t Sums, class Add, class Store>
+void BlockedField::for_each_block(const Add& add, const Store& store) const {
+  parallel_chunks(static_cast<Index>(chunks_.size()), 1, [&](Index begin, Index) {
+    const Chunk& chunk = chunks_[static_cast<std::size_t>(begin)];
+    for (std::size_t block = 0; block + 1 < chunk.block_starts.size(); ++block) {
+      std::array<Lanes, Sums> sums;
+      sums.fill(Lanes::Zero());
+      const int end = chunk.block_starts[block + 1];
+      for (int entry = chunk.block_starts[block]; entry < end; ++entry)
+        add(chunk, static_cast<std::size_t>(entry),
+            chunk.particles[static_cast<std::size_t>(entry)], sums);
+      const std::size_t first_lane = (static_cast<std::size_t>(chunk.first_block) + block) * lanes;
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        if (order_[first_lane + lane] >= 0)
+          store(sums, static_cast<Index>(lane), order_[first_lane + lane],
+                rest_[first_lane + lane]);
+    }
   });
 }
 
 void BlockedField::displace(const RigidMotion& rigid, const ParticleValues<3>& d,
                             Points& out) const {
   out.resize(size_, 3);
-  for_each_block([&](Index block) {
-    Lanes x = Lanes::Zero(), y = Lanes::Zero(), z = Lanes::Zero();
-    const int end = block_starts_[static_cast<std::size_t>(block) + 1];
-    for (int entry = block_starts_[static_cast<std::size_t>(block)]; entry < end; ++entry) {
-      const Eigen::Map<const Lanes> w(entry_weights(entry));
-      const float* value = d.data() + 3 * particles_[static_cast<std::size_t>(entry)];
-      x += w * value[0];
-      y += w * value[1];
-      z += w * value[2];
-    }
-    for_each_point(block, [&](int lane, int point, const Vec3& rest) {
-      out.row(point) = (rigid(rest) + Vec3(x[lane], y[lane], z[lane])).transpose();
-    });
-  });
+  for_each_block<3>(
+      [&](const Chunk& chunk, std::size_t entry, int particle, auto& sums) {
+        const Eigen::Map<const Lanes> w(&chunk.weights[entry * lanes]);
+        const float* value = d.data() + 3 * particle;
+        for (std::size_t a = 0; a < 3; ++a) sums[a] += w * value[a];
+      },
+      [&](const auto& sums, Index lane, int point, const Vec3& rest) {
+        const Vec3 moved(sums[0][lane], sums[1][lane], sums[2][lane]);
+        out.row(point) = (rigid(rest) + moved).transpose();
+      });
 }
 
 void BlockedField::blend(const RigidMotion& rigid, const ParticleValues<12>& maps,
                          Points& out) const {
   out.resize(size_, 3);
-  for_each_block([&](Index block) {
-    std::array<Lanes, 12> sum;
-    sum.fill(Lanes::Zero());
-    const int end = block_starts_[static_cast<std::size_t>(block) + 1];
-    for (int entry = block_starts_[static_cast<std::size_t>(block)]; entry < end; ++entry) {
-      const Eigen::Map<const Lanes> w(entry_weights(entry));
-      const float* value = maps.data() + 12 * particles_[static_cast<std::size_t>(entry)];
-      for (std::size_t c = 0; c < 12; ++c) sum[c] += w * value[c];
-    }
-    for_each_point(block, [&](int lane, int point, const Vec3& rest) {
-      Vec3 f = rigid(rest);
-      for (std::size_t a = 0; a < 3; ++a) {
-        double extra = sum[a][lane];
-        for (std::size_t b = 0; b < 3; ++b)
-          extra += double(sum[3 + 3 * a + b][lane]) * rest[static_cast<Index>(b)];
-        f[static_cast<Index>(a)] += extra;
-      }
-      out.row(point) = f.transpose();
-    });
+  for_each_block<12>(
+      [&](const Chunk& chunk, std::size_t entry, int particle, auto& sums) {
+        const Eigen::Map<const Lanes> w(&chunk.weights[entry * lanes]);
+        const float* value = maps.data() + 12 * particle;
+        for (std::size_t c = 0; c < 12; ++c) sums[c] += w * value[c];
+      },
+      [&](const auto& sums, Index lane, int point, const Vec3& rest) {
+        Vec3 f = rigid(rest);
+        for (std::size_t a = 0; a < 3; ++a) {
+          double extra = sums[a][lane];
+          for (std::size_t b = 0; b < 3; ++b)
+            extra += double(sums[3 + 3 * a + b][lane]) * rest[static_cast<Index>(b)];
+          f[static_cast<Index>(a)] += extra;
+        }
+        out.row(point) = f.transpose();
+      });
+}
+
+template <class Add>
+void BlockedField::sum_gradients(const RigidMotion& rigid, const Add& add,
+                                 std::vector<Mat3>& out) const {
+  out.resize(static_cast<std::size_t>(size_));
+  for_each_block<9>(add, [&](const auto& sums, Index lane, int point, const Vec3&) {
+    Mat3 F = rigid.R;
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) F(a, b) += sums[static_cast<std::size_t>(3 * a + b)][lane];
+    out[static_cast<std::size_t>(point)] = F;
   });
 }
 
 void BlockedField::displace_gradients(const RigidMotion& rigid, const ParticleValues<3>& d,
                                       std::vector<Mat3>& out) const {
-  out.resize(static_cast<std::size_t>(size_));
-  for_each_block([&](Index block) {
-    std::array<Lanes, 9> sum;
-    sum.fill(Lanes::Zero());
-    const int end = block_starts_[static_cast<std::size_t>(block) + 1];
-    for (int entry = block_starts_[static_cast<std::size_t>(block)]; entry < end; ++entry) {
-      const float* value = d.data() + 3 * particles_[static_cast<std::size_t>(entry)];
-      for (std::size_t b = 0; b < 3; ++b) {
-        const Eigen::Map<const Lanes> slope(
-            &slopes_[(static_cast<std::size_t>(entry) * 3 + b) * lanes]);
-        for (std::size_t a = 0; a < 3; ++a) sum[3 * a + b] += slope * value[a];
-      }
+  const auto add = [&](const Chunk& chunk, std::size_t entry, int particle, auto& sums) {
+    const float* value = d.data() + 3 * particle;
+    for (std::size_t b = 0; b < 3; ++b) {
+      const Eigen::Map<const Lanes> slope(&chunk.slopes[(entry * 3 + b) * lanes]);
+      for (std::size_t a = 0; a < 3; ++a) sums[3 * a + b] += slope * value[a];
     }
-    store_gradients(block, rigid, sum, out);
-  });
+  };
+  sum_gradients(rigid, add, out);
 }
 
 void BlockedField::blend_gradients(const RigidMotion& rigid, const ParticleValues<12>& maps,
                                    std::vector<Mat3>& out) const {
-  out.resize(static_cast<std::size_t>(size_));
-  for_each_block([&](Index block) {
-    std::array<Lanes, 9> sum;
-    sum.fill(Lanes::Zero());
-    const int end = block_starts_[static_cast<std::size_t>(block) + 1];
-    for (int entry = block_starts_[static_cast<std::size_t>(block)]; entry < end; ++entry) {
-      const Eigen::Map<const Lanes> w(entry_weights(entry));
-      const float* value = maps.data() + 12 * particles_[static_cast<std::size_t>(entry)] + 3;
-      for (std::size_t c = 0; c < 9; ++c) sum[c] += w * value[c];
-    }
-    store_gradients(block, rigid, sum, out);
+  const auto add = [&](const Chunk& chunk, std::size_t entry, int particle, auto& sums) {
+    const Eigen::Map<const Lanes> w(&chunk.weights[entry * lanes]);
+    const float* value = maps.data() + 12 * particle + 3;
+    for (std::size_t c = 0; c < 9; ++c) sums[c] += w * value[c];
+  };
+  sum_gradients(rigid, add, out);
+}
+
+long BlockedField::uncovered() const {
+  return std::accumulate(chunks_.begin(), chunks_.end(), 0L,
+                         [](long sum, const Chunk& chunk) { return sum + chunk.uncovered; });
+}
+
+long BlockedField::rank_lost() const {
+  return std::accumulate(chunks_.begin(), chunks_.end(), 0L,
+                         [](long sum, const Chunk& chunk) { return sum + chunk.rank_lost; });
+}
+
+Index BlockedField::entries() const {
+  return std::accumulate(chunks_.begin(), chunks_.end(), Index(0),
+                         [](Index sum, const Chunk& chunk) { return sum + chunk.entries; });
+}
+
+Index BlockedField::padded_entries() const {
+  return std::accumulate(chunks_.begin(), chunks_.end(), Index(0), [](Index sum, const Chunk& c) {
+    return sum + static_cast<Index>(c.weights.size());
   });
 }
 

@@ -43,38 +43,44 @@ class SUPPLE_API BlockedField {
                        std::vector<Mat3>& out) const;
 
   Index size() const { return size_; }
-  long uncovered() const { return uncovered_; }
-  long rank_lost() const { return rank_lost_; }
+  long uncovered() const;
+  long rank_lost() const;
 
   /// Numbers stored for one value of φ at every point, without and with padding.
-  Index entries() const { return entries_; }
-  Index padded_entries() const { return static_cast<Index>(weights_.size()); }
+  Index entries() const;
+  Index padded_entries() const;
 
  private:
-  struct Chunk;
   using Lanes = Eigen::Array<float, lanes, 1>;
+
+  /// Some consecutive blocks, built and walked by one thread.
+  struct Chunk {
+    Index first_block = 0;
+    std::vector<int> block_starts{0};  ///< blocks+1 offsets into particles
+    std::vector<int> particles;
+    std::vector<float> weights;  ///< [entry][lane] φ
+    std::vector<float> slopes;   ///< [entry][axis][lane] ∇φ
+    Index entries = 0;
+    long uncovered = 0, rank_lost = 0;
+  };
 
   Chunk build_chunk(const MovingLeastSquares<3>& field, const Points& points, Index first_block,
                     Index last_block) const;
   static void add_block(const Samples& rows, Chunk& chunk);
-  void append(const Chunk& chunk);
-  Index blocks() const { return static_cast<Index>(block_starts_.size()) - 1; }
-  template <class Body>
-  void for_each_block(const Body& body) const;
-  template <class Body>
-  void for_each_point(Index block, const Body& body) const;
-  void store_gradients(Index block, const RigidMotion& rigid, const std::array<Lanes, 9>& sum,
-                       std::vector<Mat3>& out) const;
-  const float* entry_weights(int entry) const { return &weights_[std::size_t(entry) * lanes]; }
 
-  Index size_ = 0, entries_ = 0;
-  long uncovered_ = 0, rank_lost_ = 0;
-  std::vector<int> order_;            ///< the point in each lane of each block; −1 pads
-  std::vector<Vec3> rest_;            ///< the lanes' points at rest
-  std::vector<int> block_starts_{0};  ///< blocks+1 offsets into particles_
-  std::vector<int> particles_;
-  std::vector<float> weights_;  ///< [entry][lane] φ
-  std::vector<float> slopes_;   ///< [entry][axis][lane] ∇φ
+  /// Block by block: add(chunk, entry, particle, sums) for all its entries, sums born zero, and
+  /// then store(sums, lane, point, rest) for its points.
+  template <std::size_t Sums, class Add, class Store>
+  void for_each_block(const Add& add, const Store& store) const;
+
+  /// As above, where the sums are a matrix that comes on top of the rigid motion's.
+  template <class Add>
+  void sum_gradients(const RigidMotion& rigid, const Add& add, std::vector<Mat3>& out) const;
+
+  Index size_ = 0;
+  std::vector<int> order_;  ///< the point in each lane of each block; −1 pads
+  std::vector<Vec3> rest_;  ///< the lanes' points at rest
+  std::vector<Chunk> chunks_;
 };
 
 }  // namespace supple

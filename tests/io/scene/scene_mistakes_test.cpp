@@ -58,7 +58,7 @@ TEST(SceneMistakes, InKeysAndStructure) {
       {"supple: one\nshape: {mesh: a}", "1:9", "supple = 'one', must be a whole number"},
       {"motion: {}\n", "1:1", "motion is not available yet"},
       {"simulate:\n", "1:1", "simulate is not available yet"},
-      {"shape:\n  points: a.xyz", "2:3", "shape.points is not available yet"},
+      {"shape:\n  points: a.xyz\n  mesh: a.off", "2:11", "shape.points: shape.mesh is given too"},
       {"shape: {box: {}}", "1:9", "shape.box is not available yet"},
       {"shape: {mesh: a, target_error: 1%}", "1:18", "shape.target_error is not available yet"},
       {"shape: {mesh: a, quadrature: cells}", "1:30", "quadrature: cells is not available yet"},
