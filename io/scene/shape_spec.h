@@ -12,6 +12,10 @@ namespace supple {
 enum class QuadratureKind { automatic, particles, cells };
 EnumNames<QuadratureKind> enum_names(QuadratureKind);
 
+/// How the particles are placed: evenly, or one in each cell of an octree.
+enum class PlacementKind { even, octree };
+EnumNames<PlacementKind> enum_names(PlacementKind);
+
 /// What one unit of a mesh file's coordinates, and of lengths without a percent, stands for.
 enum class FileUnit { metre, centimetre, millimetre, inch };
 EnumNames<FileUnit> enum_names(FileUnit);
@@ -27,6 +31,7 @@ struct ShapeSpec {
   std::optional<Length> size;  ///< scales to this bounding-box diagonal, centred
   BasisOrder basis = BasisOrder::linear;
   KernelKind kernel = KernelKind::polynomial;
+  PlacementKind placement = PlacementKind::even;
   QuadratureKind quadrature = QuadratureKind::automatic;
 
   const std::string& file() const { return points.empty() ? mesh : points; }
@@ -53,8 +58,12 @@ struct ShapeSpec {
            .exclusive_min = true});
     visit("basis", self.basis, {.doc = "polynomials that the field reproduces exactly"});
     visit("kernel", self.kernel, {.doc = "weight function of the moving least squares"});
+    visit("placement", self.placement,
+          {.doc = "how particles are placed: evenly, or in octree cells (their number is then met "
+                  "nearly)"});
     visit("quadrature", self.quadrature,
-          {.doc = "where energies are sampled (cells: not available yet)"});
+          {.doc = "where energies are sampled: at particles (auto: and on the surface), or in "
+                  "octree cells"});
   }
 };
 

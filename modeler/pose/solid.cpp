@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "modeler/domain/closed_region.h"
+#include "modeler/domain/octree_particles.h"
 #include "modeler/domain/sample_particles.h"
 #include "modeler/domain/shape_error.h"
 #include "solver/field/supports.h"
@@ -42,6 +44,32 @@ ParticleSamplingOptions sampling_options(const ShapeSpec& spec, double diagonal,
   options.count = spec.particles.value_or(default_particles);
   if (spec.spacing) options.spacing = resolve(*spec.spacing, diagonal) / unit;
   return options;
+}
+
+Particles place_particles(const Region& region, const ShapeSpec& spec, double diagonal,
+                          double unit) {
+  const ParticleSamplingOptions even = sampling_options(spec, diagonal, unit);
+  if (spec.placement == PlacementKind::even) return sample_particles(region, even).particles;
+  OctreeParticleOptions options;
+  options.count = even.count;
+  options.spacing = even.spacing;
+  options.kernel = spec.kernel;
+  return octree_particles(region, options);
+}
+
+/// How many particles a support would reach if they stood `spacing` apart.
+double neighbors_within(double support, double spacing) {
+  return 4 * std::numbers::pi / 3 * std::pow(support / spacing, 3);
+}
+
+Quadrature with_particles_first(const Particles& particles, const Quadrature& others) {
+  Quadrature all;
+  all.points.resize(particles.size() + others.points.rows(), 3);
+  all.points << particles.positions, others.points;
+  all.volumes.setZero(all.points.rows());
+  all.volumes.tail(others.volumes.size()) =
+      others.volumes * (particles.volumes.sum() / others.volumes.sum());
+  return all;
 }
 
 }  // namespace
@@ -84,7 +112,7 @@ void Solid::sample(const ShapeSpec& spec) {
   if (unused > 0)
     notes_.push_back(fmt::format("{} vertices that no face uses follow the solid", unused));
   region_ = std::move(region);
-  particles_ = sample_particles(*region_, sampling_options(spec, unit_, unit_)).particles;
+  particles_ = place_particles(*region_, spec, unit_, unit_);
 }
 
 Points Solid::spread_over_surface(double width) const {
@@ -107,7 +135,12 @@ double Solid::choose_particle_supports(KernelKind kernel) {
   for (std::size_t i = 0; i < used_.size(); ++i)
     if (used_[i]) cover.row(row++) = vertices_.row(static_cast<Index>(i));
 
-  Supports supports = choose_supports(particles_.positions, particles_.spacing, cover, kernel);
+  SupportOptions options;
+  // Those of an octree's particles follow from its leaves.
+  if (particles_.supports.size() > 0)
+    options.neighbors = neighbors_within(particles_.supports.minCoeff(), particles_.spacing);
+  Supports supports =
+      choose_supports(particles_.positions, particles_.spacing, cover, kernel, options);
   particles_.supports = std::move(supports.radii);
   return static_cast<double>(supports.thin) / static_cast<double>(cover.rows());
 }
@@ -115,6 +148,11 @@ double Solid::choose_particle_supports(KernelKind kernel) {
 Quadrature Solid::quadrature(QuadratureKind kind) const {
   Quadrature quadrature{particles_.positions, particles_.volumes};
   if (kind == QuadratureKind::particles) return quadrature;
+  if (kind == QuadratureKind::cells) {
+    OctreeOptions cells;
+    cells.width = particles_.spacing;
+    return with_particles_first(particles_, cell_quadrature(*region_, {*region_, cells}));
+  }
   const Points surface = spread_over_surface(particles_.spacing);
   const Neighbors<3> tree(particles_.positions, particles_.supports);
   std::vector<int> owners;

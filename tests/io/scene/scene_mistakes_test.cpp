@@ -61,7 +61,6 @@ TEST(SceneMistakes, InKeysAndStructure) {
       {"shape:\n  points: a.xyz\n  mesh: a.off", "2:11", "shape.points: shape.mesh is given too"},
       {"shape: {box: {}}", "1:9", "shape.box is not available yet"},
       {"shape: {mesh: a, target_error: 1%}", "1:18", "shape.target_error is not available yet"},
-      {"shape: {mesh: a, quadrature: cells}", "1:30", "quadrature: cells is not available yet"},
   };
   for (const Mistake& mistake : mistakes) expect_message(mistake);
 }

@@ -123,10 +123,13 @@ TEST(Octree, KindsAreWhatRandomPointsOfTheLeavesSay) {
 }
 
 TEST(Octree, CubesThatFillABoxAreAllInterior) {
-  const Octree octree = octree_of(region_of(make_bar({1, 1, 2}, {1, 1, 1})), 0.125);
-  EXPECT_EQ(count(octree, LeafKind::interior), 8 * 8 * 16);
-  EXPECT_EQ(count(octree, LeafKind::interior_boundary), 0);
-  EXPECT_EQ(count(octree, LeafKind::exterior_boundary), 0);
+  const auto region = region_of(make_bar({1, 1, 2}, {1, 1, 1}));
+  for (int across : {1, 4, 5, 7}) {
+    const Octree octree = octree_of(region, 1.0 / across);
+    EXPECT_EQ(count(octree, LeafKind::interior), across * across * 2 * across);
+    EXPECT_EQ(count(octree, LeafKind::interior_boundary), 0);
+    EXPECT_EQ(count(octree, LeafKind::exterior_boundary), 0);
+  }
 }
 
 TEST(Octree, CoarserLeavesInsideAreFewer) {
