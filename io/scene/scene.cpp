@@ -21,6 +21,14 @@ EnumNames<CouplingKind> enum_names(CouplingKind) {
   return names;
 }
 
+EnumNames<PlacementKind> enum_names(PlacementKind) {
+  static constexpr std::array<std::pair<PlacementKind, std::string_view>, 2> names{{
+      {PlacementKind::even, "even"},
+      {PlacementKind::octree, "octree"},
+  }};
+  return names;
+}
+
 EnumNames<FileUnit> enum_names(FileUnit) {
   static constexpr std::array<std::pair<FileUnit, std::string_view>, 4> names{{
       {FileUnit::metre, "m"},

@@ -47,7 +47,6 @@ void check_rules(const ShapeSpec& shape, const SceneItem& item) {
   if (shape.particles && shape.spacing)
     complain(find_item(item, "spacing")->place,
              "shape.spacing: shape.particles is given too; allowed: one of them");
-  if (shape.quadrature == QuadratureKind::cells) refuse_for_now(item, "quadrature", "cells");
 }
 
 void check_rules(const PoseSpec& pose, const SceneItem& item) {

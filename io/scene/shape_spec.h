@@ -16,6 +16,10 @@ EnumNames<QuadratureKind> enum_names(QuadratureKind);
 enum class CouplingKind { inside, straight };
 EnumNames<CouplingKind> enum_names(CouplingKind);
 
+/// How the particles are placed: evenly, or one in each cell of an octree.
+enum class PlacementKind { even, octree };
+EnumNames<PlacementKind> enum_names(PlacementKind);
+
 /// What one unit of a mesh file's coordinates, and of lengths without a percent, stands for.
 enum class FileUnit { metre, centimetre, millimetre, inch };
 EnumNames<FileUnit> enum_names(FileUnit);
@@ -33,6 +37,7 @@ struct ShapeSpec {
   KernelKind kernel = KernelKind::polynomial;
   GradientKind gradient = GradientKind::full;
   SupportKind supports = SupportKind::round;
+  PlacementKind placement = PlacementKind::even;
   QuadratureKind quadrature = QuadratureKind::automatic;
   CouplingKind coupling = CouplingKind::inside;
 
@@ -64,8 +69,12 @@ struct ShapeSpec {
           {.doc = "deformation gradients: derivatives of the field, or slopes of a linear fit"});
     visit("supports", self.supports,
           {.doc = "shape of the particles' supports; stretched ones follow thin parts"});
+    visit("placement", self.placement,
+          {.doc = "how particles are placed: evenly, or in octree cells (their number is then met "
+                  "nearly)"});
     visit("quadrature", self.quadrature,
-          {.doc = "where energies are sampled (cells: not available yet)"});
+          {.doc = "where energies are sampled: at particles (auto: and on the surface), or in "
+                  "octree cells"});
     visit("coupling", self.coupling,
           {.doc = "what parts feel of each other: by ways inside the shape, or across gaps too"});
   }

@@ -123,11 +123,16 @@ std::vector<KeyedCell> halves_of(const Region& region, const std::vector<KeyedCe
 Octree::Octree(const Region& region, const OctreeOptions& options) : width_(options.width) {
   SUPPLE_CHECK(options.width > 0, "leaves have a width");
   const Box box = region.bounds();
-  const double size = box.size().maxCoeff() * (1 - 1e-9);
-  while (levels_ <= most_levels && std::ldexp(width_, levels_) < size) ++levels_;
+  const Vec3 across = (box.size() * ((1 - 1e-9) / width_)).array().ceil().max(1.0);
+  while (levels_ <= most_levels && std::ldexp(1, levels_) < across.maxCoeff()) ++levels_;
   if (levels_ > most_levels)
     throw ShapeError("the cells are too fine for the shape; give a greater spacing");
-  lower_ = box.center() - Vec3::Constant(0.5 * std::ldexp(width_, levels_));
+  // The fewest leaves across the box lie evenly about its middle: a leaf's face or its centre
+  // there.
+  for (int axis = 0; axis < 3; ++axis) {
+    const double spare = std::ldexp(1, levels_) - across[axis];
+    lower_[axis] = box.center()[axis] - width_ * (0.5 * across[axis] + std::floor(0.5 * spare));
+  }
   std::vector<std::vector<Key>> split = cells_to_split(region, options.coarser_inside);
   if (levels_ > 0) balance(split);
   keep_leaves(split);

@@ -32,13 +32,17 @@ struct OctreeOptions {
   }
 };
 
-/// One-level adjusted octree about a region (Guo & Qin, section 4.1): its leaves tile a cube about
-/// the middle of the region's box, and leaves with a face or an edge in common differ by one level
-/// at most. Leaves at the boundary are all of one width; outside they are as wide as that allows.
+/// One-level adjusted octree about a region (Guo & Qin, section 4.1): its leaves tile a cube,
+/// the fewest across the region's box and evenly about its middle, and leaves with a face or an
+/// edge in common differ by one level at most. Leaves at the boundary are all of one width; outside
+/// they are as wide as that allows.
 class Octree {
  public:
   /// Errors: ShapeError where `options.width` would take too many leaves.
   Octree(const Region& region, const OctreeOptions& options);
+
+  /// Edge of the leaves at the boundary [m].
+  double width() const { return width_; }
 
   /// In Morton order.
   const std::vector<OctreeLeaf>& leaves() const { return leaves_; }

@@ -10,6 +10,10 @@ Vec3 RegionCell::outward() const {
   return center_inside ? Vec3(-away) : away;
 }
 
+bool contains(const Region& region, const RegionCell& cell, const Vec3& x) {
+  return (cell.center_inside && cell.on_side_of_center(x)) || region.contains(x);
+}
+
 void look_at(const Region& region, const std::vector<RegionCell>& known, RegionCell& cell) {
   cell.boundary_point = region.closest_boundary_point(cell.center);
   const auto near = std::find_if(known.begin(), known.end(), [&](const RegionCell& other) {

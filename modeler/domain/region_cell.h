@@ -20,6 +20,9 @@ struct RegionCell {
   double volume() const { return 8 * half_width * half_width * half_width; }  ///< [m³]
   double distance() const { return (boundary_point - center).norm(); }  ///< to the boundary [m]
 
+  /// Distance to the boundary [m], negative inside.
+  double signed_distance() const { return center_inside ? -distance() : distance(); }
+
   /// False where all of it is outside for certain.
   bool touches_region() const { return inner || distance() <= reach(); }
 
@@ -29,6 +32,9 @@ struct RegionCell {
   /// Unit normal of the boundary at the boundary point.
   Vec3 outward() const;
 };
+
+/// True for points inside the region; quick where the cell's centre is and x lies near it.
+bool contains(const Region& region, const RegionCell& cell, const Vec3& x);
 
 /// Asks the region about a cell; `known` are cells already asked that lie near it.
 void look_at(const Region& region, const std::vector<RegionCell>& known, RegionCell& cell);

@@ -230,15 +230,19 @@ class Sampler {
 }  // namespace
 
 ParticleSampling sample_particles(const Region& region, const ParticleSamplingOptions& options) {
-  SUPPLE_CHECK(options.spacing > 0 || options.count > 0, "neither a spacing nor a count");
-  const double count = options.spacing > 0 ? region.volume() / std::pow(options.spacing, 3)
-                                           : static_cast<double>(options.count);
-  if (!(count <= most_particles))
+  check_particle_count(region, options.count, options.spacing);
+  return Sampler(region, options).run();
+}
+
+void check_particle_count(const Region& region, int count, double spacing) {
+  SUPPLE_CHECK(spacing > 0 || count > 0, "neither a spacing nor a count");
+  const double about =
+      spacing > 0 ? region.volume() / std::pow(spacing, 3) : static_cast<double>(count);
+  if (!(about <= most_particles))
     throw ShapeError(fmt::format(
         "this shape would take about {:.2g} particles; allowed: at most {:.2g}; give a greater "
         "spacing or fewer particles",
-        count, most_particles));
-  return Sampler(region, options).run();
+        about, most_particles));
 }
 
 }  // namespace supple

@@ -42,4 +42,8 @@ struct ParticleSampling {
 /// Errors: ShapeError where no inside is found, or a spacing means more than a million particles.
 ParticleSampling sample_particles(const Region& region, const ParticleSamplingOptions& options);
 
+/// Says so where a count, or in its stead a spacing [m], means more than a million particles.
+/// Errors: ShapeError.
+void check_particle_count(const Region& region, int count, double spacing);
+
 }  // namespace supple

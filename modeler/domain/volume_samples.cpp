@@ -96,7 +96,7 @@ class CellSampler {
   bool plane_like(const RegionCell& cell, const Vec3& middle, double expected_depth) const {
     const double depth = (region_.closest_boundary_point(middle) - middle).norm();
     if (depth < 0.7 * expected_depth) return false;
-    return (cell.center_inside && cell.on_side_of_center(middle)) || region_.contains(middle);
+    return contains(region_, cell, middle);
   }
 
   /// A part thinner than the cell: t = δ + distance to its other side, from a point δ inside.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "modeler/domain/inside_cover.h"
 #include "modeler/domain/inside_detours.h"
 #include "modeler/domain/make_region.h"
+#include "modeler/domain/octree_particles.h"
 #include "modeler/domain/sample_particles.h"
 #include "modeler/domain/shape_error.h"
 
@@ -66,6 +68,39 @@ ParticleSamplingOptions sampling_options(const ShapeSpec& spec, double diagonal,
   options.count = spec.particles.value_or(default_particles);
   if (spec.spacing) options.spacing = resolve(*spec.spacing, diagonal) / unit;
   return options;
+}
+
+/// Particles and the samples of the volume that they share, as the spec wants them placed.
+ParticleSampling place_particles(const Region& region, const ShapeSpec& spec, double diagonal,
+                                 double unit) {
+  const ParticleSamplingOptions even = sampling_options(spec, diagonal, unit);
+  if (spec.placement == PlacementKind::even) return sample_particles(region, even);
+  OctreeParticleOptions options;
+  options.count = even.count;
+  options.spacing = even.spacing;
+  options.kernel = spec.kernel;
+  ParticleSampling sampling;
+  sampling.particles = octree_particles(region, options);
+  VolumeSampleOptions samples;
+  samples.width = sampling.particles.spacing / std::cbrt(even.candidates);
+  samples.enough = even.candidates * sampling.particles.size();
+  sampling.samples = sample_volume(region, samples);
+  return sampling;
+}
+
+/// How many particles a support would reach if they stood `spacing` apart.
+double neighbors_within(double support, double spacing) {
+  return 4 * std::numbers::pi / 3 * std::pow(support / spacing, 3);
+}
+
+Quadrature with_particles_first(const Particles& particles, const Quadrature& others) {
+  Quadrature all;
+  all.points.resize(particles.size() + others.points.rows(), 3);
+  all.points << particles.positions, others.points;
+  all.volumes.setZero(all.points.rows());
+  all.volumes.tail(others.volumes.size()) =
+      others.volumes * (particles.volumes.sum() / others.volumes.sum());
+  return all;
 }
 
 }  // namespace
@@ -126,7 +161,7 @@ void Solid::sample(const Mesh& mesh, const ShapeSpec& spec) {
     notes_.push_back(fmt::format("{} vertices that no face uses follow the solid", unused));
   region_ = std::move(solid.region);
   boundary_ = std::move(solid.boundary);
-  ParticleSampling sampling = sample_particles(*region_, sampling_options(spec, unit_, unit_));
+  ParticleSampling sampling = place_particles(*region_, spec, unit_, unit_);
   particles_ = std::move(sampling.particles);
   if (spec.coupling == CouplingKind::inside) couple_inside(sampling.samples);
   for (std::string& note : solid.empty_parts(particles_.positions))
@@ -162,8 +197,13 @@ double Solid::choose_particle_supports(const ShapeSpec& spec) {
   for (std::size_t i = 0; i < used_.size(); ++i)
     if (used_[i]) cover.row(row++) = inner_vertices_.row(static_cast<Index>(i));
 
+  SupportOptions options;
+  options.kind = spec.supports;
+  // Those of an octree's particles follow from its leaves.
+  if (particles_.supports.size() > 0)
+    options.neighbors = neighbors_within(particles_.supports.minCoeff(), particles_.spacing);
   Supports supports = choose_supports(particles_.positions, particles_.spacing, cover, spec.kernel,
-                                      {.kind = spec.supports}, detours_within_supports());
+                                      options, detours_within_supports());
   particles_.supports = std::move(supports.radii);
   particles_.stretches = std::move(supports.stretches);
   detours_ = std::move(supports.detours);
@@ -183,6 +223,11 @@ DetoursWithin Solid::detours_within_supports() {
 Quadrature Solid::quadrature(QuadratureKind kind) const {
   Quadrature quadrature{particles_.positions, particles_.volumes};
   if (kind == QuadratureKind::particles) return quadrature;
+  if (kind == QuadratureKind::cells) {
+    OctreeOptions cells;
+    cells.width = particles_.spacing;
+    return with_particles_first(particles_, cell_quadrature(*region_, {*region_, cells}));
+  }
   const Points surface = spread_over_surface(particles_.spacing);
   const Neighbors<3> tree(particles_.positions, particles_.supports);
   std::vector<int> owners;

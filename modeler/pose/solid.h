@@ -6,6 +6,7 @@
 #include "io/mesh/mesh.h"
 #include "io/scene/shape_spec.h"
 #include "modeler/domain/carried_boundary.h"
+#include "modeler/domain/cell_quadrature.h"
 #include "modeler/domain/cloud_surface.h"
 #include "modeler/domain/inside_graph.h"
 #include "modeler/domain/surface_samples.h"
@@ -16,12 +17,6 @@
 #include "solver/field/supports.h"
 
 namespace supple {
-
-/// Points that energies are summed over, and the volume that each stands for.
-struct Quadrature {
-  Points points;            ///< n×3, the particles first
-  Eigen::VectorXd volumes;  ///< n; their sum is the solid's volume
-};
 
 /// A shape made ready for posing: scaled to a diagonal of 1 about its box's centre, so that
 /// nothing depends on units or on where it lies, filled with particles, and with a field.
@@ -61,9 +56,11 @@ class Solid {
   /// Returns the share of covered points whose particles lie near a plane or a line.
   double choose_particle_supports(const ShapeSpec& spec);
 
-  /// QuadratureKind::particles: at the particles. Automatic: also at points spread over the
-  /// surface, which take a part of the volume of the particle nearest to them. Particles alone
-  /// let some displacements through that bend the surface between them without any energy.
+  /// The particles come first. QuadratureKind::particles: no others. Automatic: also at points
+  /// spread over the surface, which take a part of the volume of the particle nearest to them.
+  /// Particles alone let some displacements through that bend the surface between them without any
+  /// energy. Cells: Gauss points in octree cells about as wide as the particles are apart; the
+  /// particles are listed with no volume.
   Quadrature quadrature(QuadratureKind kind) const;
 
  private:

@@ -10,6 +10,9 @@
 
 #include "io/picture/picture.h"
 #include "io/scene/scene.h"
+#include "modeler/domain/cell_quadrature.h"
+#include "modeler/domain/octree.h"
+#include "modeler/domain/octree_particles.h"
 #include "modeler/domain/sample_particles.h"
 #include "modeler/domain/self_intersections.h"
 #include "modeler/domain/volume_samples.h"
@@ -44,7 +47,8 @@ class EveryOptions : public testing::Test {};
 
 using AllOptions =
     testing::Types<MovingLeastSquaresOptions, SupportOptions, MinimizeOptions,
-                   ParticleSamplingOptions, VolumeSampleOptions, SelfIntersectionOptions, Camera,
+                   ParticleSamplingOptions, VolumeSampleOptions, SelfIntersectionOptions,
+                   OctreeOptions, OctreeParticleOptions, CellQuadratureOptions, Camera,
                    PictureOptions, ShapeSpec, TurnSpec, HandleSpec, PoseWeights, PoseSpec, Scene>;
 TYPED_TEST_SUITE(EveryOptions, AllOptions);
 
