@@ -35,6 +35,9 @@ constexpr double full_weight = 0.1;
 /// Distance in cells up to which it alone counts, and from which on it no longer does.
 constexpr double near_boundary = 1.5, far_from_boundary = 3;
 
+/// Depth in cells from which on a way between two crossings of the boundary lies outside.
+constexpr double outside_over_cell = 0.2;
+
 constexpr double reach_over_spacing = 3;  // of a point that covers the boundary
 constexpr double least_cover = 0.6, greatest_opening = 0.3;
 
@@ -331,7 +334,15 @@ Vec3 PointRegion::closest_boundary_point(const Vec3& x) const {
 bool PointRegion::connects(const Vec3& a, const Vec3& b) const {
   std::vector<Crossing> crossings;
   parts_->tree.crossings(a, b, crossings);
-  return crossings.empty();
+  if (crossings.empty()) return true;
+  std::vector<double> shares = {0, 1};
+  for (const Crossing& crossing : crossings) shares.push_back(crossing.share);
+  std::sort(shares.begin(), shares.end());
+  // The triangles only stand for the boundary: ways along it cross them without leaving.
+  const double out = outside_over_cell * parts_->field.cell();
+  for (std::size_t k = 0; k + 1 < shares.size(); ++k)
+    if (signed_distance(a + 0.5 * (shares[k] + shares[k + 1]) * (b - a)) > out) return false;
+  return true;
 }
 
 double PointRegion::volume() const {

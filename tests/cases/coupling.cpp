@@ -51,7 +51,7 @@ struct Body {
     return values;
   }
 
-  const ClosedRegion region;
+  const MeshRegion region;
   Particles particles;
   std::shared_ptr<const InsideGraph> graph;
   Eigen::VectorXd supports;

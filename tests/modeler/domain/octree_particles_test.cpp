@@ -94,7 +94,7 @@ double moment_condition(const Particles& particles, const Vec3& x, KernelKind ke
   Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
   for (Index i = 0; i < particles.size(); ++i) {
     const Vec3 offset = x - particles.positions.row(i).transpose();
-    const double w = kernel_weight<3, 0>(kernel, offset, particles.supports[i]).c[0];
+    const double w = kernel_weight<3, 0>(kernel, offset, Support<3>{particles.supports[i]}).c[0];
     Eigen::Vector4d p;
     p << 1, offset / particles.spacing;
     moments += w * p * p.transpose();

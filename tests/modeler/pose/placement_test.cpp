@@ -109,7 +109,7 @@ Solid solid_of(const Mesh& mesh, PlacementKind placement, int particles) {
   spec.particles = particles;
   spec.placement = placement;
   Solid solid(mesh, spec);
-  solid.choose_particle_supports(spec.kernel);
+  solid.choose_particle_supports(spec);
   return solid;
 }
 
