@@ -47,7 +47,7 @@ examples/make_bar.sh >"$data/bar.off"
 if have_shapes || fetch_shapes; then
   pose pose_armadillo off --camera 205,12
   pose pose_holes off --camera 60,10
-  pose pose_scan ply --camera 30,10 --up z
+  pose pose_scan ply --camera 30,10
 else
   echo "Debian's libcgal-demo archive cannot be had here: posing a bar made in code instead."
   pose bent_bar off

@@ -192,7 +192,8 @@ TEST(MeshRegion, FacesThatDisagreeAreTurned) {
   EXPECT_NEAR(one.volume(), 1, 1e-12);
 
   const Mesh hollow = joined(make_icosphere(1, 3), turned(make_icosphere(0.5, 3)));
-  EXPECT_NEAR(region_of(turned_at_random(hollow, 0.5, 3)).volume() / region_of(hollow).volume(), 1,
+  // Most faces of the cavity still tell that it is one.
+  EXPECT_NEAR(region_of(turned_at_random(hollow, 0.3, 3)).volume() / region_of(hollow).volume(), 1,
               1e-12);
 }
 
@@ -224,7 +225,8 @@ TEST(MeshRegion, OverlapsAreOneWallsThatTouchAreNot) {
   EXPECT_NEAR(overlapping.volume(), 2 - 0.5 * 0.75 * 0.75, 0.02);
   EXPECT_GT(overlapping.cover().contact.other, 0.1);
   EXPECT_EQ(overlapping.cover().contact.own, 0);
-  EXPECT_NEAR(overlapping.signed_distance({0.75, 0.6, 0.6}), -0.35, 0.01);
+  // To the edges where a side of one goes into the other, not to the sides within.
+  EXPECT_NEAR(overlapping.signed_distance({0.75, 0.6, 0.6}), -std::hypot(0.25, 0.35), 0.01);
   const MeshRegion touching = beside(1);
   EXPECT_FALSE(touching.connects(left, right));
   EXPECT_TRUE(touching.connects(left, {0.9, 0.6, 0.6}));
