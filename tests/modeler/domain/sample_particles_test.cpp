@@ -159,8 +159,7 @@ TEST(SampleParticles, EveryPartOfAShapeIsFilled) {
 }
 
 TEST(SampleParticles, HollowShapeStaysHollow) {
-  const MeshRegion region =
-      region_of(joined(make_icosphere(1, 3), turned(make_icosphere(0.8, 3))));
+  const MeshRegion region = region_of(joined(make_icosphere(1, 3), turned(make_icosphere(0.8, 3))));
   expect_contract(region, sample(region, 100), 20000);
 }
 
