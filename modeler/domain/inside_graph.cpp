@@ -74,7 +74,7 @@ class InsideGraph::Builder {
     parallel_chunks(count, points_a_chunk, [&](Index begin, Index end) {
       for (Index i = begin; i < end; ++i) {
         const Vec3 x = graph_.stations_.row(i).transpose();
-        graph_.clearances_[i] = (graph_.region_.closest_boundary_point(x) - x).norm();
+        graph_.clearances_[i] = graph_.region_.clearance(x);
       }
     });
   }

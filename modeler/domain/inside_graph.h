@@ -35,7 +35,7 @@ class InsideGraph {
 
   const Points& stations() const { return stations_; }
   const Eigen::VectorXd& volumes() const { return volumes_; }        ///< of the stations [m³]
-  const Eigen::VectorXd& clearances() const { return clearances_; }  ///< to the boundary [m]
+  const Eigen::VectorXd& clearances() const { return clearances_; }  ///< to walls [m]
 
   /// Those with stations come first.
   const std::vector<Pocket>& pockets() const { return pockets_; }

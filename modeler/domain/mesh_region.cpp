@@ -252,6 +252,14 @@ bool MeshRegion::connects(const Vec3& a, const Vec3& b) const {
   return start + least >= 1;
 }
 
+double MeshRegion::clearance(const Vec3& x) const {
+  const Vec3 local = x - parts_->center;
+  double squared = parts_->winding.closest(local).squared_distance;
+  if (parts_->trimmed)
+    squared = std::min(squared, parts_->trimmed->closest(local).squared_distance);
+  return std::sqrt(squared);
+}
+
 double MeshRegion::volume() const {
   return parts_->volume;
 }

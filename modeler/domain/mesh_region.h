@@ -43,6 +43,7 @@ class MeshRegion final : public Region {
 
   /// False also where the way crosses two walls at one place: out of the region and in again.
   bool connects(const Vec3& a, const Vec3& b) const override;
+  double clearance(const Vec3& x) const override;
   double volume() const override;
   Box bounds() const override;
 

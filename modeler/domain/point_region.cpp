@@ -345,6 +345,10 @@ bool PointRegion::connects(const Vec3& a, const Vec3& b) const {
   return true;
 }
 
+double PointRegion::clearance(const Vec3& x) const {
+  return std::sqrt(parts_->tree.closest(x).squared_distance);
+}
+
 double PointRegion::volume() const {
   return parts_->volume;
 }

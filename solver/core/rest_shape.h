@@ -23,6 +23,10 @@ class Region {
   /// for the width of a gap whose two walls touch.
   virtual bool connects(const Vec3& a, const Vec3& b) const = 0;
 
+  /// Distance that straight ways from x inside may go before any of them leaves the region or
+  /// crosses a wall, at least [m].
+  virtual double clearance(const Vec3& x) const = 0;
+
   /// Enclosed volume [m³].
   virtual double volume() const = 0;
 
