@@ -136,6 +136,13 @@ std::vector<Demand> grown(std::vector<Demand>& demands, const SupportOptions& op
   return open;
 }
 
+/// Brings detours and radii together: where there are any, no radius exceeds `widest`.
+void find_detours(const DetoursWithin& detours_within, double widest, Supports& supports) {
+  const Eigen::VectorXd narrowed = supports.radii.cwiseMin(widest);
+  supports.detours = detours_within(narrowed, widest);
+  if (supports.detours) supports.radii = narrowed;
+}
+
 }  // namespace
 
 std::vector<Mat3> stretches_along(const Points& particles, double radius, double most_stretch) {
@@ -168,22 +175,13 @@ Supports choose_supports(const Points& particles, double spacing, const Points& 
   if (options.kind == SupportKind::stretched)
     supports.stretches = stretches_along(particles, usual, options.most_stretch);
   const Reach reach{particles, supports.stretches};
-  const auto find_detours = [&] {
-    if (!detours_within) return;
-    const double widest = options.widest_inside * usual;
-    if (supports.detours) supports.radii = supports.radii.cwiseMin(widest);
-    supports.detours = detours_within(supports.radii.cwiseMin(widest), widest);
-    if (supports.detours) supports.radii = supports.radii.cwiseMin(widest);
-  };
-  find_detours();
-  meet(sparse_points(reach, cover, usual, options), cover, reach, supports.detours.get(),
-       supports.radii);
+  meet(sparse_points(reach, cover, usual, options), cover, reach, nullptr, supports.radii);
   smooth(particles, usual, options.smoothness, supports.radii);
 
   std::vector<Demand> demands;
   for (Index k = 0; k < cover.rows(); ++k) demands.push_back({k, usual});
   for (int round = 0; round <= options.rounds && !demands.empty(); ++round) {
-    find_detours();
+    if (detours_within) find_detours(detours_within, options.widest_inside * usual, supports);
     const MovingLeastSquares<3> field(particles, supports.radii, {BasisOrder::linear, kernel},
                                       supports.detours, supports.stretches);
     demands = steep_points(field, cover, std::move(demands), options.most_slope / usual, options);
