@@ -15,8 +15,9 @@ namespace supple {
 
 namespace {
 
-constexpr std::array neighbor_counts = {12, 18, 27, 40, 60, 90, 135, 200, 300, 450};
+constexpr std::array neighbor_counts = {12, 18, 27, 40, 60, 90, 135};
 constexpr Index asked_points = 200;
+constexpr double nearly = 1.1;  // times the least share of the spread off the plane
 constexpr int tree_neighbors = 16;
 constexpr int neighbors_of_one = 20;  // for each point that gets a normal of its own
 constexpr double least_part = 0.005;  // of the points
@@ -51,7 +52,7 @@ struct PartMoments {
 
 }  // namespace
 
-int flattest_neighbors(const Points& positions, const Points& normals) {
+int flat_neighbors(const Points& positions, const Points& normals) {
   const SiteTree tree(positions);
   const Index step = std::max<Index>(1, positions.rows() / asked_points);
   std::array<double, neighbor_counts.size()> off_plane{};
@@ -69,8 +70,10 @@ int flattest_neighbors(const Points& positions, const Points& normals) {
       off_plane[c] += principal_axes(positions, i, std::span(others).first(count)).off_plane();
     }
   }
-  const auto least = std::min_element(off_plane.begin(), off_plane.end());
-  return neighbor_counts[static_cast<std::size_t>(least - off_plane.begin())];
+  const double least = *std::min_element(off_plane.begin(), off_plane.end());
+  const auto first = std::find_if(off_plane.begin(), off_plane.end(),
+                                  [&](double share) { return share <= nearly * least; });
+  return neighbor_counts[static_cast<std::size_t>(first - off_plane.begin())];
 }
 
 /// Turns each part outwards; normals of parts of a few points become zero. Returns how many are
@@ -117,7 +120,7 @@ Points spread(const Points& normals, const Points& chosen, const Points& positio
 
 PointNormals estimate_normals(const Points& positions) {
   PointNormals result;
-  result.neighbors = flattest_neighbors(positions);
+  result.neighbors = flat_neighbors(positions);
   // In the depth of noise neighbours tell nothing of one another: those of a thinner cloud do.
   const int step = std::max(1, result.neighbors / neighbors_of_one);
   std::vector<int> chosen;

@@ -6,15 +6,16 @@
 
 #include <fmt/format.h>
 
-#include "modeler/domain/closed_region.h"
 #include "modeler/domain/partition_of_unity.h"
 #include "modeler/domain/point_cleaning.h"
 #include "modeler/domain/point_neighbors.h"
 #include "modeler/domain/point_normals.h"
+#include "modeler/domain/point_orientation.h"
 #include "modeler/domain/principal_axes.h"
 #include "modeler/domain/region_cover.h"
 #include "modeler/domain/shape_error.h"
 #include "modeler/domain/site_tree.h"
+#include "modeler/domain/surface_measures.h"
 #include "modeler/domain/triangle_tree.h"
 #include "solver/core/parallel.h"
 
@@ -33,9 +34,9 @@ constexpr double widest_cell = 1.0 / 80, narrowest_cell = 1.0 / 256;
 constexpr double full_weight = 0.1;
 
 /// Distance in cells up to which it alone counts, and from which on it no longer does.
-constexpr double near_boundary = 1.5, far_from_boundary = 3;
+constexpr double near_boundary = 0.5, far_from_boundary = 1.5;
 
-constexpr double reach_over_spacing = 3;  // of a point that covers the boundary
+constexpr double reach_over_spacing = 2;  // of a point that covers the boundary
 constexpr double least_cover = 0.6, greatest_opening = 0.3;
 
 /// 0 up to 0, 1 from 1 on, C¹.
@@ -113,7 +114,10 @@ PointCloudReading read_points(const Points& positions, const Points& normals) {
   require_enough(reading.kept.size(), positions.rows());
 
   const Points kept = positions(reading.kept, Eigen::all);
-  reading.areas = point_areas(PointNeighbors(kept, area_neighbors), kept, reading.normals);
+  const PointNeighbors neighbors(kept, area_neighbors);
+  if (!reading.normals_estimated)
+    reading.odd_normals = turn_odd_normals(kept, neighbors, reading.normals);
+  reading.areas = point_areas(neighbors, kept, reading.normals);
   reading.turned = flux(kept, reading) < 0;
   if (reading.turned) reading.normals *= -1;
   return reading;
@@ -177,7 +181,7 @@ class PointField {
  private:
   static PartitionOptions options(const Points& positions, const PointCloudReading& reading) {
     PartitionOptions options;
-    options.neighbors = flattest_neighbors(positions, reading.normals);
+    options.neighbors = flat_neighbors(positions, reading.normals);
     return options;
   }
 
@@ -246,6 +250,9 @@ std::vector<std::string> PointCloudReading::notes() const {
   if (without_normal > 0)
     notes.push_back(
         fmt::format("{} points without a normal do not count for the surface", without_normal));
+  if (odd_normals > 0)
+    notes.push_back(
+        fmt::format("{} normals look against those about them; read as if turned", odd_normals));
   if (turned) notes.push_back("the normals point inwards; read as if they pointed outwards");
   if (covered < 0.995)
     notes.push_back(fmt::format("the points cover {} of the boundary; the rest is closed by guess",

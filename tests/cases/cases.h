@@ -18,6 +18,7 @@ struct Case {
 };
 
 std::span<const Case> moment_matrix_cases();  ///< A: moving least squares
+std::span<const Case> point_cloud_cases();    ///< B: point clouds
 std::span<const Case> pose_cases();           ///< C: poses
 std::span<const Case> input_cases();          ///< K: inputs and outputs
 
