@@ -20,7 +20,6 @@ struct PointCloudReading {
   bool normals_estimated = false;  ///< and turned by guess
   bool turned = false;             ///< the normals given look inwards: read the other way
   long odd_normals = 0;            ///< that look against those about them: read as if turned
-  double noise = 0;                ///< typical distance of a point from the surface [m]
   double covered = 0;              ///< share of the boundary that lies near points
 
   std::vector<std::string> notes() const;  ///< a sentence each, for the user
