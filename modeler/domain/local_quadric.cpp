@@ -34,15 +34,9 @@ Mat3 frame_about(const Vec3& normal) {
   return frame;
 }
 
-}  // namespace
-
-QuadricFit fit_quadric(const Points& positions, const Points& normals, std::span<const int> chosen,
-                       const Vec3& center, double radius, double far) {
-  Vec3 sum = Vec3::Zero();
-  for (int i : chosen)
-    sum += falloff(positions.row(i).transpose() - center, radius) * normals.row(i).transpose();
-  const Vec3 normal =
-      sum.norm() > 1e-9 ? Vec3(sum.normalized()) : Vec3(normals.row(chosen[0]).transpose());
+/// Over the plane of `normal`; `normals` are empty where slopes do not count.
+QuadricFit fit_heights(const Points& positions, const Points& normals, const Vec3& normal,
+                       std::span<const int> chosen, const Vec3& center, double radius, double far) {
   const Mat3 frame = frame_about(normal);
 
   // In units of the radius: height = Σ a_k φ_k(u, v), φ = 1, u, v, u², uv, v².
@@ -52,13 +46,15 @@ QuadricFit fit_quadric(const Points& positions, const Points& normals, std::span
   for (int i : chosen) {
     const Vec3 d = positions.row(i).transpose() - center;
     const Vec3 x = frame.transpose() * d / radius;
-    const Vec3 n = frame.transpose() * normals.row(i).transpose();
     const double weight = falloff(d, radius);
     const double u = x[0], v = x[1];
     Vec6 row;
     row << 1, u, v, u * u, u * v, v * v;
     A += weight * row * row.transpose();
     B += weight * x[2] * row;
+    weights += weight;
+    if (normals.rows() == 0) continue;
+    const Vec3 n = frame.transpose() * normals.row(i).transpose();
     // n_w ∂h/∂u = −n_u, the same for v.
     const double slopes = weight * slope_weight * slope_weight;
     Vec6 along_u, along_v;
@@ -66,7 +62,6 @@ QuadricFit fit_quadric(const Points& positions, const Points& normals, std::span
     along_v << 0, 0, n[2], 0, n[2] * u, 2 * n[2] * v;
     A += slopes * (along_u * along_u.transpose() + along_v * along_v.transpose());
     B -= slopes * (n[0] * along_u + n[1] * along_v);
-    weights += weight;
   }
   A.diagonal().array() += stiffness * weights;
   const Vec6 a = A.ldlt().solve(B);
@@ -94,6 +89,23 @@ QuadricFit fit_quadric(const Points& positions, const Points& normals, std::span
   fit.rms = std::sqrt(squares / weights * count / std::max(count - freedom, 1.0));
   fit.beyond = static_cast<double>(beyond) / count;
   return fit;
+}
+
+}  // namespace
+
+QuadricFit fit_quadric(const Points& positions, const Points& normals, std::span<const int> chosen,
+                       const Vec3& center, double radius, double far) {
+  Vec3 sum = Vec3::Zero();
+  for (int i : chosen)
+    sum += falloff(positions.row(i).transpose() - center, radius) * normals.row(i).transpose();
+  const Vec3 normal =
+      sum.norm() > 1e-9 ? Vec3(sum.normalized()) : Vec3(normals.row(chosen[0]).transpose());
+  return fit_heights(positions, normals, normal, chosen, center, radius, far);
+}
+
+QuadricFit fit_quadric(const Points& positions, const Vec3& normal, std::span<const int> chosen,
+                       const Vec3& center, double radius, double far) {
+  return fit_heights(positions, {}, normal, chosen, center, radius, far);
 }
 
 }  // namespace supple

@@ -36,4 +36,8 @@ struct QuadricFit {
 QuadricFit fit_quadric(const Points& positions, const Points& normals, std::span<const int> chosen,
                        const Vec3& center, double radius, double far);
 
+/// The same over the plane of a given normal, by the points' places alone.
+QuadricFit fit_quadric(const Points& positions, const Vec3& normal, std::span<const int> chosen,
+                       const Vec3& center, double radius, double far);
+
 }  // namespace supple

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -16,6 +17,13 @@ namespace {
 /// Radius of a cell's ball over its diagonal. A half covers the cell; the balls of a cell's halves
 /// lie within its own up to any value above that.
 constexpr double ball_over_diagonal = 0.7;
+
+/// Cells live on while points lie within this many of their half widths: quadrics are to follow
+/// points, not to guess far from them.
+constexpr double cube_share = 1.2;
+
+/// A cell that borrows points is no larger than this many reaches of theirs.
+constexpr double most_reaches = 2;
 
 constexpr std::size_t least_points = 16;  // for a quadric
 constexpr double enough_neighbors = 0.7;  // of the cloud's, for a quadric
@@ -55,7 +63,7 @@ class PartitionOfUnity::Builder {
     const Index step = std::max<Index>(1, positions_.rows() / asked_points);
     std::vector<double> offs;
     for (Index i = 0; i < positions_.rows(); i += step)
-      offs.push_back(nearest_fit(positions_.row(i), 0).rms);
+      offs.push_back(nearest_fit(positions_.row(i), 0).fit.rms);
     const auto middle = offs.begin() + static_cast<std::ptrdiff_t>(offs.size() / 2);
     std::nth_element(offs.begin(), middle, offs.end());
     return *middle;
@@ -116,7 +124,10 @@ class PartitionOfUnity::Builder {
       return {{}, halves(cell)};
     }
     if (two_sided && !last) return {{}, halves(cell)};
-    return {nearest_fit(cell.center, cell.radius()).quadric, {}};
+    const NearestFit nearest = nearest_fit(cell.center, cell.radius());
+    if (depth_ < most_levels && cell.radius() > most_reaches * nearest.reach)
+      return {{}, halves(cell)};
+    return {nearest.fit.quadric, {}};
   }
 
   std::vector<Growing> halves(const Growing& cell) const {
@@ -126,10 +137,14 @@ class PartitionOfUnity::Builder {
       for (int axis = 0; axis < 3; ++axis)
         half.center[axis] += (octant >> axis & 1 ? 1 : -1) * half.half_width;
       const double squared_radius = half.radius() * half.radius();
-      for (int i : cell.points)
-        if ((positions_.row(i).transpose() - half.center).squaredNorm() < squared_radius)
-          half.points.push_back(i);
-      if (!half.points.empty()) result.push_back(std::move(half));
+      double nearest = std::numeric_limits<double>::infinity();
+      for (int i : cell.points) {
+        const Vec3 way = positions_.row(i).transpose() - half.center;
+        if (way.squaredNorm() >= squared_radius) continue;
+        half.points.push_back(i);
+        nearest = std::min(nearest, way.lpNorm<Eigen::Infinity>());
+      }
+      if (nearest <= cube_share * half.half_width) result.push_back(std::move(half));
     }
     return result;
   }
@@ -148,7 +163,11 @@ class PartitionOfUnity::Builder {
   }
 
   /// By the points nearest to x whose normals agree with the nearest one's.
-  QuadricFit nearest_fit(const Vec3& x, double least_radius) const {
+  struct NearestFit {
+    QuadricFit fit;
+    double reach;  ///< distance from x to the farthest of the points [m]
+  };
+  NearestFit nearest_fit(const Vec3& x, double least_radius) const {
     std::vector<Index> sites(2 * enough_points_);
     std::vector<double> squared_distances(sites.size());
     const int found = tree_.nearest(x, sites, squared_distances);
@@ -159,8 +178,9 @@ class PartitionOfUnity::Builder {
       chosen.push_back(static_cast<int>(sites[k]));
       squared_reach = squared_distances[k];
     }
-    const double radius = std::max(least_radius, 1.1 * std::sqrt(squared_reach) + 1e-300);
-    return fit_quadric(positions_, normals_, chosen, x, radius, far * tolerance_);
+    const double reach = std::sqrt(squared_reach);
+    const double radius = std::max(least_radius, 1.1 * reach + 1e-300);
+    return {fit_quadric(positions_, normals_, chosen, x, radius, far * tolerance_), reach};
   }
 
   const Points& positions_;

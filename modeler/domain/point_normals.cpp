@@ -15,26 +15,21 @@ namespace supple {
 
 namespace {
 
-constexpr std::array neighbor_counts = {12, 18, 27, 40, 60, 90, 135, 200, 300, 450};
+constexpr std::array neighbor_counts = {12, 18, 27, 40, 60, 90, 135};
 constexpr Index asked_points = 200;
+constexpr double nearly = 1.1;  // times the least share of the spread off the plane
 constexpr int tree_neighbors = 16;
-constexpr int neighbors_of_one = 20;  // for each point that gets a normal of its own
 constexpr double least_part = 0.005;  // of the points
 constexpr Index least_points = 12;
 
-/// At the chosen points, by `count` neighbours each.
-Points plane_normals(const Points& positions, const std::vector<int>& chosen, int count) {
-  const SiteTree tree(positions);
-  Points normals(static_cast<Index>(chosen.size()), 3);
-  parallel_chunks(normals.rows(), 256, [&](Index begin, Index end) {
-    std::vector<Index> sites(std::size_t(count) + 1);
-    std::vector<double> squared_distances(sites.size());
-    std::vector<int> others;
-    for (Index i = begin; i < end; ++i) {
-      const int found = tree.nearest(positions.row(chosen[i]), sites, squared_distances);
-      others.assign(sites.begin() + 1, sites.begin() + found);
-      normals.row(i) = principal_axes(positions, sites[0], others).axes.col(0).transpose();
-    }
+/// By `count` neighbours each.
+Points plane_normals(const Points& positions, const PointNeighbors& neighbors, int count) {
+  Points normals(positions.rows(), 3);
+  const auto used = static_cast<std::size_t>(std::min(count, neighbors.count()));
+  parallel_chunks(positions.rows(), 512, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i)
+      normals.row(i) =
+          principal_axes(positions, i, neighbors.of(i).first(used)).axes.col(0).transpose();
   });
   return normals;
 }
@@ -48,30 +43,6 @@ struct PartMoments {
 
   bool inwards() const { return flux < area_normal.dot(area_position) / std::max(area, 1e-300); }
 };
-
-}  // namespace
-
-int flattest_neighbors(const Points& positions, const Points& normals) {
-  const SiteTree tree(positions);
-  const Index step = std::max<Index>(1, positions.rows() / asked_points);
-  std::array<double, neighbor_counts.size()> off_plane{};
-  std::vector<Index> sites(neighbor_counts.back());
-  std::vector<double> squared_distances(sites.size());
-  std::vector<int> others;
-  for (Index i = 0; i < positions.rows(); i += step) {
-    const int found = tree.nearest(positions.row(i), sites, squared_distances);
-    others.clear();
-    for (int k = 0; k < found; ++k)
-      if (normals.rows() == 0 || normals.row(i).dot(normals.row(sites[k])) > 0)
-        others.push_back(static_cast<int>(sites[k]));
-    for (std::size_t c = 0; c < neighbor_counts.size(); ++c) {
-      const auto count = std::min(others.size(), static_cast<std::size_t>(neighbor_counts[c]));
-      off_plane[c] += principal_axes(positions, i, std::span(others).first(count)).off_plane();
-    }
-  }
-  const auto least = std::min_element(off_plane.begin(), off_plane.end());
-  return neighbor_counts[static_cast<std::size_t>(least - off_plane.begin())];
-}
 
 /// Turns each part outwards; normals of parts of a few points become zero. Returns how many are
 /// left.
@@ -100,35 +71,39 @@ int turn_parts(const Points& positions, const PointNeighbors& neighbors,
                                         [&](const auto& part) { return part.points >= least; }));
 }
 
-/// Each row of `normals`, which belong to `chosen`, for the points nearest to it.
-Points spread(const Points& normals, const Points& chosen, const Points& positions) {
-  const SiteTree tree(chosen);
-  Points result(positions.rows(), 3);
-  parallel_chunks(positions.rows(), 512, [&](Index begin, Index end) {
-    Index site;
-    double squared_distance;
-    for (Index i = begin; i < end; ++i) {
-      tree.nearest(positions.row(i), {&site, 1}, {&squared_distance, 1});
-      result.row(i) = normals.row(site);
+}  // namespace
+
+int flat_neighbors(const Points& positions, const Points& normals) {
+  const SiteTree tree(positions);
+  const Index step = std::max<Index>(1, positions.rows() / asked_points);
+  std::array<double, neighbor_counts.size()> off_plane{};
+  std::vector<Index> sites(neighbor_counts.back());
+  std::vector<double> squared_distances(sites.size());
+  std::vector<int> others;
+  for (Index i = 0; i < positions.rows(); i += step) {
+    const int found = tree.nearest(positions.row(i), sites, squared_distances);
+    others.clear();
+    for (int k = 0; k < found; ++k)
+      if (normals.rows() == 0 || normals.row(i).dot(normals.row(sites[k])) > 0)
+        others.push_back(static_cast<int>(sites[k]));
+    for (std::size_t c = 0; c < neighbor_counts.size(); ++c) {
+      const auto count = std::min(others.size(), static_cast<std::size_t>(neighbor_counts[c]));
+      off_plane[c] += principal_axes(positions, i, std::span(others).first(count)).off_plane();
     }
-  });
-  return result;
+  }
+  const double least = *std::min_element(off_plane.begin(), off_plane.end());
+  const auto first = std::find_if(off_plane.begin(), off_plane.end(),
+                                  [&](double share) { return share <= nearly * least; });
+  return neighbor_counts[static_cast<std::size_t>(first - off_plane.begin())];
 }
 
 PointNormals estimate_normals(const Points& positions) {
   PointNormals result;
-  result.neighbors = flattest_neighbors(positions);
-  // In the depth of noise neighbours tell nothing of one another: those of a thinner cloud do.
-  const int step = std::max(1, result.neighbors / neighbors_of_one);
-  std::vector<int> chosen;
-  for (int i = 0; i < positions.rows(); i += step) chosen.push_back(i);
-
-  Points normals = plane_normals(positions, chosen, result.neighbors);
-  const Points places = positions(chosen, Eigen::all);
-  const PointNeighbors neighbors(places, tree_neighbors);
-  const std::vector<int> parts = orient_normals(places, neighbors, normals);
-  result.parts = turn_parts(places, neighbors, parts, normals);
-  result.normals = step == 1 ? std::move(normals) : spread(normals, places, positions);
+  result.neighbors = flat_neighbors(positions);
+  const PointNeighbors neighbors(positions, std::max(result.neighbors, tree_neighbors));
+  result.normals = plane_normals(positions, neighbors, result.neighbors);
+  const std::vector<int> parts = orient_normals(positions, neighbors, result.normals);
+  result.parts = turn_parts(positions, neighbors, parts, result.normals);
   for (Index i = 0; i < positions.rows(); ++i)
     if (result.normals.row(i).isZero()) ++result.unoriented;
   return result;

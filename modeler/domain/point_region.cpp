@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,8 @@
 #include "modeler/domain/point_cleaning.h"
 #include "modeler/domain/point_neighbors.h"
 #include "modeler/domain/point_normals.h"
+#include "modeler/domain/point_orientation.h"
+#include "modeler/domain/point_smoothing.h"
 #include "modeler/domain/principal_axes.h"
 #include "modeler/domain/region_cover.h"
 #include "modeler/domain/shape_error.h"
@@ -25,6 +28,7 @@ namespace {
 constexpr std::size_t least_points = 20;
 constexpr double flat = 1e-6;  // greatest thickness over the length
 constexpr int area_neighbors = 16;
+constexpr int noisy_neighbors = 40;  // a cloud that takes so many is smoothed
 
 constexpr double cell_over_spacing = 1.2;
 constexpr double widest_cell = 1.0 / 80, narrowest_cell = 1.0 / 256;
@@ -33,12 +37,12 @@ constexpr double widest_cell = 1.0 / 80, narrowest_cell = 1.0 / 256;
 constexpr double full_weight = 0.1;
 
 /// Distance in cells up to which it alone counts, and from which on it no longer does.
-constexpr double near_boundary = 1.5, far_from_boundary = 3;
+constexpr double near_boundary = 0.5, far_from_boundary = 1.5;
 
 /// Depth in cells from which on a way between two crossings of the boundary lies outside.
 constexpr double outside_over_cell = 0.2;
 
-constexpr double reach_over_spacing = 3;  // of a point that covers the boundary
+constexpr double reach_over_spacing = 2;  // of a point that covers the boundary
 constexpr double least_cover = 0.6, greatest_opening = 0.3;
 
 /// 0 up to 0, 1 from 1 on, C¹.
@@ -69,69 +73,116 @@ void require_thickness(const Points& positions) {
                                spread[1] > flat * spread[2] ? "plane" : "line"));
 }
 
-/// Chosen rows of both.
-void keep(const std::vector<int>& chosen, std::vector<int>& kept, Points& normals) {
-  std::vector<int> rest;
-  for (int i : chosen) rest.push_back(kept[i]);
-  kept = std::move(rest);
-  normals = Points(normals(chosen, Eigen::all));
+/// Points with what is known of them.
+struct OrientedPoints {
+  Points positions, normals;
+  Eigen::VectorXd areas;
+};
+
+OrientedPoints rows(const OrientedPoints& points, const std::vector<int>& chosen) {
+  return {points.positions(chosen, Eigen::all), points.normals(chosen, Eigen::all), {}};
 }
 
-/// Leaves out points without a normal and gives the others unit length.
-void keep_with_normals(PointCloudReading& reading) {
+/// Gives normals unit length; returns the points that have one.
+std::vector<int> points_with_normals(Points& normals) {
   std::vector<int> chosen;
-  for (Index i = 0; i < reading.normals.rows(); ++i) {
-    const double length = reading.normals.row(i).norm();
+  for (Index i = 0; i < normals.rows(); ++i) {
+    const double length = normals.row(i).norm();
     if (!(length > 0) || !std::isfinite(length)) continue;
-    reading.normals.row(i) /= length;
+    normals.row(i) /= length;
     chosen.push_back(static_cast<int>(i));
   }
-  reading.without_normal = reading.normals.rows() - static_cast<long>(chosen.size());
-  if (reading.without_normal > 0) keep(chosen, reading.kept, reading.normals);
+  return chosen;
 }
 
 /// Three times the volume that the points' discs enclose.
-double flux(const Points& positions, const PointCloudReading& reading) {
-  const Eigen::RowVector3d middle = positions.colwise().mean();
-  return ((positions.rowwise() - middle).cwiseProduct(reading.normals).rowwise().sum().array() *
-          reading.areas.array())
-      .sum();
+double flux(const OrientedPoints& points) {
+  const Eigen::RowVector3d middle = points.positions.colwise().mean();
+  const Points ways = points.positions.rowwise() - middle;
+  return ways.cwiseProduct(points.normals).rowwise().sum().dot(points.areas);
 }
 
-PointCloudReading read_points(const Points& positions, const Points& normals) {
-  PointCloudReading reading;
+/// Points with normals of their own, turned where they contradict the others.
+OrientedPoints take_normals(PointCloudReading& reading, const Points& positions,
+                            const Points& normals) {
+  OrientedPoints points{positions(reading.kept, Eigen::all), normals(reading.kept, Eigen::all), {}};
+  const std::vector<int> chosen = points_with_normals(points.normals);
+  reading.without_normal = points.positions.rows() - static_cast<long>(chosen.size());
+  if (reading.without_normal > 0) {
+    points = rows(points, chosen);
+    std::vector<int> kept;
+    for (int i : chosen) kept.push_back(reading.kept[i]);
+    reading.kept = std::move(kept);
+  }
+  require_enough(reading.kept.size(), positions.rows());
+  const PointNeighbors neighbors(points.positions, area_neighbors);
+  reading.odd_normals = turn_odd_normals(points.positions, neighbors, points.normals);
+  points.areas = point_areas(neighbors, points.positions, points.normals);
+  reading.turned = flux(points) < 0;
+  if (reading.turned) points.normals *= -1;
+  reading.normals = points.normals;
+  reading.areas = points.areas;
+  return points;
+}
+
+/// For each point the row of `normals` that belongs to the nearest of `places`.
+Points nearest_normals(const OrientedPoints& places, const Points& positions) {
+  const SiteTree tree(places.positions);
+  Points normals(positions.rows(), 3);
+  parallel_chunks(positions.rows(), 512, [&](Index begin, Index end) {
+    Index site;
+    double squared_distance;
+    for (Index i = begin; i < end; ++i) {
+      tree.nearest(positions.row(i), {&site, 1}, {&squared_distance, 1});
+      normals.row(i) = places.normals.row(site);
+    }
+  });
+  return normals;
+}
+
+/// Points with estimated normals; of a noisy cloud those of a smooth one.
+OrientedPoints guess_normals(PointCloudReading& reading, const Points& positions) {
+  reading.normals_estimated = true;
+  const Points kept = positions(reading.kept, Eigen::all);
+  const int neighbors = flat_neighbors(kept);
+  OrientedPoints points;
+  points.positions = neighbors < noisy_neighbors ? kept : smooth_points(kept, neighbors);
+  points.normals = estimate_normals(points.positions).normals;
+  const std::vector<int> chosen = points_with_normals(points.normals);
+  points = rows(points, chosen);
+  require_enough(chosen.size(), positions.rows());
+  points.areas = point_areas(points.positions, points.normals);
+  reading.normals = nearest_normals(points, kept);
+  reading.areas = point_areas(kept, reading.normals);
+  return points;
+}
+
+/// What the cloud says, and the points that make the surface.
+std::pair<PointCloudReading, OrientedPoints> read_points(const Points& positions,
+                                                         const Points& normals) {
   require_enough(static_cast<std::size_t>(positions.rows()), positions.rows());
   CleanPoints clean = clean_points(positions);
   require_enough(clean.kept.size(), positions.rows());
+  require_thickness(positions(clean.kept, Eigen::all));
+  PointCloudReading reading;
   reading.kept = std::move(clean.kept);
   reading.duplicates = clean.duplicates;
   reading.outliers = clean.outliers;
-  require_thickness(positions(reading.kept, Eigen::all));
-
-  reading.normals_estimated = normals.rows() == 0;
-  reading.normals = reading.normals_estimated
-                        ? estimate_normals(positions(reading.kept, Eigen::all)).normals
-                        : Points(normals(reading.kept, Eigen::all));
-  keep_with_normals(reading);
-  require_enough(reading.kept.size(), positions.rows());
-
-  const Points kept = positions(reading.kept, Eigen::all);
-  reading.areas = point_areas(PointNeighbors(kept, area_neighbors), kept, reading.normals);
-  reading.turned = flux(kept, reading) < 0;
-  if (reading.turned) reading.normals *= -1;
-  return reading;
+  OrientedPoints points = normals.rows() > 0 ? take_normals(reading, positions, normals)
+                                             : guess_normals(reading, positions);
+  return {std::move(reading), std::move(points)};
 }
 
 /// A triangle for each point, with the point's area and normal.
-TriangleTree disc_tree(const Points& positions, const PointCloudReading& reading) {
-  const Index count = positions.rows();
+TriangleTree disc_tree(const OrientedPoints& points) {
+  const Index count = points.positions.rows();
   Points corners(3 * count, 3);
   Triangles triangles(count, 3);
   for (Index i = 0; i < count; ++i) {
-    const Vec3 normal = reading.normals.row(i);
+    const Vec3 normal = points.normals.row(i);
     const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
-    const double radius = std::sqrt(4 / (3 * std::sqrt(3.0)) * reading.areas[i]);
-    const Vec3 x = positions.row(i), half = std::sqrt(0.75) * radius * v;
+    const double radius = std::sqrt(4 / (3 * std::sqrt(3.0)) * points.areas[i]);
+    const Vec3 x = points.positions.row(i), half = std::sqrt(0.75) * radius * v;
     corners.row(3 * i) = (x + radius * u).transpose();
     corners.row(3 * i + 1) = (x - 0.5 * radius * u + half).transpose();
     corners.row(3 * i + 2) = (x - 0.5 * radius * u - half).transpose();
@@ -143,10 +194,10 @@ TriangleTree disc_tree(const Points& positions, const PointCloudReading& reading
 /// The function whose zero set is the boundary.
 class PointField {
  public:
-  PointField(const Points& positions, const PointCloudReading& reading)
-      : partition_(positions, reading.normals, options(positions, reading)),
-        discs_(disc_tree(positions, reading)),
-        spacing_(std::sqrt(reading.areas.mean())) {}
+  explicit PointField(const OrientedPoints& points)
+      : partition_(points.positions, points.normals, options(points)),
+        discs_(disc_tree(points)),
+        spacing_(std::sqrt(points.areas.mean())) {}
 
   const PartitionOfUnity& partition() const { return partition_; }
   double spacing() const { return spacing_; }
@@ -178,9 +229,9 @@ class PointField {
   }
 
  private:
-  static PartitionOptions options(const Points& positions, const PointCloudReading& reading) {
+  static PartitionOptions options(const OrientedPoints& points) {
     PartitionOptions options;
-    options.neighbors = flattest_neighbors(positions, reading.normals);
+    options.neighbors = flat_neighbors(points.positions, points.normals);
     return options;
   }
 
@@ -203,9 +254,10 @@ Polygons boundary_of(const PointField& field, const Points& positions) {
 }
 
 /// For each vertex of the boundary: a point lies near that looks the same way.
-std::vector<bool> covered_vertices(const PointField& field, const Points& positions,
-                                   const PointCloudReading& reading, const Points& vertices) {
-  const SiteTree tree(positions);
+std::vector<bool> covered_vertices(const PointField& field, const OrientedPoints& points,
+                                   const Points& vertices) {
+  const SiteTree tree(points.positions);
+  const double noise2 = std::pow(field.partition().noise(), 2);
   std::vector<char> covered(static_cast<std::size_t>(vertices.rows()), 0);
   parallel_chunks(vertices.rows(), 256, [&](Index begin, Index end) {
     Index site;
@@ -214,9 +266,8 @@ std::vector<bool> covered_vertices(const PointField& field, const Points& positi
       const PartitionOfUnity::Value near = field.partition().at(vertices.row(i));
       if (near.weight < full_weight) continue;
       tree.nearest(vertices.row(i), {&site, 1}, {&squared_distance, 1});
-      const double reach2 = std::pow(reach_over_spacing, 2) * reading.areas[site] +
-                            std::pow(reading.noise * reach_over_spacing, 2);
-      covered[i] = squared_distance <= reach2 && near.gradient.dot(reading.normals.row(site)) > 0;
+      const double reach2 = std::pow(reach_over_spacing, 2) * (points.areas[site] + noise2);
+      covered[i] = squared_distance <= reach2 && near.gradient.dot(points.normals.row(site)) > 0;
     }
   });
   return {covered.begin(), covered.end()};
@@ -249,6 +300,9 @@ std::vector<std::string> PointCloudReading::notes() const {
   if (without_normal > 0)
     notes.push_back(
         fmt::format("{} points without a normal do not count for the surface", without_normal));
+  if (odd_normals > 0)
+    notes.push_back(
+        fmt::format("{} normals look against those about them; read as if turned", odd_normals));
   if (turned) notes.push_back("the normals point inwards; read as if they pointed outwards");
   if (covered < 0.995)
     notes.push_back(fmt::format("the points cover {} of the boundary; the rest is closed by guess",
@@ -257,16 +311,14 @@ std::vector<std::string> PointCloudReading::notes() const {
 }
 
 struct PointRegion::Parts {
-  Parts(const Points& kept, PointCloudReading points)
-      : reading(std::move(points)),
-        field(kept, reading),
-        boundary(boundary_of(field, kept)),
+  Parts(PointCloudReading cloud, const OrientedPoints& points)
+      : reading(std::move(cloud)),
+        field(points),
+        boundary(boundary_of(field, points.positions)),
         tree(boundary.positions, boundary.triangles),
         box(bounding_box(boundary.positions)) {
-    reading.noise = field.partition().noise();
-    const RegionCover cover =
-        measure_cover(boundary.positions, boundary.triangles,
-                      covered_vertices(field, kept, reading, boundary.positions));
+    const RegionCover cover = measure_cover(boundary.positions, boundary.triangles,
+                                            covered_vertices(field, points, boundary.positions));
     reading.covered = cover.covered;
     require_closed(cover, reading.normals_estimated);
     volume = signed_volume(boundary.positions, boundary.triangles);
@@ -299,9 +351,8 @@ struct PointRegion::Parts {
 };
 
 PointRegion::PointRegion(const Points& positions, const Points& normals) {
-  PointCloudReading reading = read_points(positions, normals);
-  const Points kept = positions(reading.kept, Eigen::all);
-  parts_ = std::make_unique<const Parts>(kept, std::move(reading));
+  auto [reading, points] = read_points(positions, normals);
+  parts_ = std::make_unique<const Parts>(std::move(reading), points);
 }
 
 PointRegion::~PointRegion() = default;

@@ -19,7 +19,7 @@ struct PointCloudReading {
   long without_normal = 0;         ///< points left out because no normal could be told
   bool normals_estimated = false;  ///< and turned by guess
   bool turned = false;             ///< the normals given look inwards: read the other way
-  double noise = 0;                ///< typical distance of a point from the surface [m]
+  long odd_normals = 0;            ///< that look against those about them: read as if turned
   double covered = 0;              ///< share of the boundary that lies near points
 
   std::vector<std::string> notes() const;  ///< a sentence each, for the user
@@ -52,7 +52,7 @@ class PointRegion final : public Region {
 
   const PointCloudReading& reading() const;
 
-  /// The boundary, closed, its vertices on the zero set.
+  /// The boundary, closed, its vertices on the zero set. [m]
   const Polygons& boundary() const;
 
  private:

@@ -24,6 +24,7 @@ std::span<const Case> moment_matrix_cases();     ///< A: moving least squares
 std::span<const Case> degenerate_cloud_cases();  ///< A: over particles as they should not lie
 std::span<const Case> coupling_cases();          ///< B: parts that nearly touch, thin parts
 std::span<const Case> geometry_cases();          ///< B: shapes as they come
+std::span<const Case> point_cloud_cases();       ///< B: scans
 std::span<const Case> pose_cases();              ///< C: poses
 std::span<const Case> input_cases();             ///< K: inputs and outputs
 

@@ -127,6 +127,13 @@ void measure_jumps(const Body& body, const Field& field, Figures& figures) {
   }
 }
 
+/// 1 where the result is degraded for that reason.
+double says(const PoseResult& result, ReasonCode code) {
+  return static_cast<double>(
+      std::any_of(result.report.reasons.begin(), result.report.reasons.end(),
+                  [code](const Reason& reason) { return reason.code == code; }));
+}
+
 void measure_plate(Figures& figures) {
   const Mesh plate = make_bar({100, 100, 1}, {30, 30, 1});
   constexpr double spacing = 1 / 0.3;
@@ -142,9 +149,7 @@ void measure_plate(Figures& figures) {
         figures["gap"],
         (particles.positions.rowwise() - plate.positions.row(i)).rowwise().norm().minCoeff() /
             spacing);
-  figures["said"] = static_cast<double>(
-      std::any_of(result.report.reasons.begin(), result.report.reasons.end(),
-                  [](const Reason& reason) { return reason.code == ReasonCode::thin; }));
+  figures["said"] = says(result, ReasonCode::thin);
 }
 
 /// Two fingers, one of which is pulled away by 0.3 L. The palm and the fingers' roots are held, and
@@ -182,7 +187,10 @@ void measure_fingers(Figures& figures) {
 }
 
 void measure_touching_fingers(Figures& figures) {
-  figures["other_finger"] = way_of_other_finger(pull_finger(0, "inside"));
+  const PoseResult touching = pull_finger(0, "inside");
+  figures["other_finger"] = way_of_other_finger(touching);
+  figures["said"] = says(touching, ReasonCode::self_contact);
+  figures["overlap_said"] = says(pull_finger(-0.1 * 0.7, "inside"), ReasonCode::self_contact);
 }
 
 constexpr Case cases[] = {
