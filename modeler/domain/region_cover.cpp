@@ -136,7 +136,8 @@ class Polygonizer {
       for (const auto& tetrahedron : tetrahedra)
         for (int i = 0; i < 4; ++i)
           for (int j = i + 1; j < 4; ++j)
-            list(grid_.next(node, tetrahedron[i]), tetrahedron[i] ^ tetrahedron[j]);
+            list(grid_.next(node, tetrahedron[i] & tetrahedron[j]),
+                 tetrahedron[i] ^ tetrahedron[j]);
     }
   }
 
