@@ -116,84 +116,82 @@ class InsideDetours::Finder {
   std::vector<int> touched_;
 };
 
-/// All particles' detours, by control.
+/// All particles' detours, by pocket.
 class InsideDetours::Field final : public Detours {
  public:
   explicit Field(const InsideDetours& owner) : graph_(owner.graph_), spline_(owner.spline_) {
-    starts_.assign(static_cast<std::size_t>(spline_->size()) + 1, 0);
-    for (const auto& of_particle : owner.lengths_)
-      for (const AtControl& at : of_particle) ++starts_[at.control + 1];
-    for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
-    entries_.resize(static_cast<std::size_t>(starts_.back()));
-    std::vector<int> next(starts_.begin(), starts_.end() - 1);
-    for (std::size_t i = 0; i < owner.lengths_.size(); ++i)
-      for (const AtControl& at : owner.lengths_[i])
-        entries_[next[at.control]++] = {static_cast<int>(i), at.length};
-    list_particles(owner.positions_, owner.radii_);
+    sort_by_control(owner.lengths_);
+    std::vector<int> place_of(owner.lengths_.size(), -1);
+    for (int pocket = 0; pocket < static_cast<int>(graph_->pockets().size()); ++pocket)
+      list(pocket, owner, place_of);
+    by_control_ = {};
   }
 
-  void at(const Vec3& x, std::vector<Detour>& detours) const override {
+  void at(const Vec3& x, Derivatives derivatives, std::vector<Detour>& detours) const override {
     detours.clear();
     const int pocket = graph_->pocket_of(x);
-    if (pocket < 0 || listed_starts_[pocket] == listed_starts_[pocket + 1]) return;
-    for (int k = listed_starts_[pocket]; k < listed_starts_[pocket + 1]; ++k)
-      detours.push_back({listed_[k]});
-    const PocketSpline::Controls& controls = spline_->controls(pocket);
-    const PocketSpline::Weights weights = spline_->weights(pocket, x);
-    for (int k = 0; k < PocketSpline::controls_a_pocket; ++k)
-      add(controls[k], weights.values[k], weights.slopes[k], weights.curvatures[k], detours);
-    std::erase_if(detours, [](const Detour& detour) { return !(detour.length > 0); });
+    if (pocket < 0 || starts_[pocket] == starts_[pocket + 1]) return;
+    const PocketSpline::Basis basis = spline_->basis(pocket, x);
+    for (int k = starts_[pocket]; k < starts_[pocket + 1]; ++k) {
+      const auto [length, slope, curvature] = PocketSpline::sum(basis, values_of(k), derivatives);
+      if (length > 0) detours.push_back({particles_[k], length, slope, curvature});
+    }
   }
 
  private:
-  struct Entry {
+  struct AtParticle {
     int particle;
     double length;
   };
 
-  /// The particles of each pocket that any of its controls knows and whose detours may count in
-  /// its cell.
-  void list_particles(const Points& positions, const Eigen::VectorXd& radii) {
-    listed_starts_ = {0};
-    const double reach = std::sqrt(0.75) * graph_->width();
-    std::vector<int> seen_in(static_cast<std::size_t>(positions.rows()), -1);
-    for (int pocket = 0; pocket < static_cast<int>(graph_->pockets().size()); ++pocket) {
-      const Vec3 middle =
-          graph_->corner(graph_->pockets()[pocket].cell) + Vec3::Constant(0.5 * graph_->width());
-      for (const int control : spline_->controls(pocket))
-        for (int e = starts_[control]; e < starts_[control + 1]; ++e) {
-          const int i = entries_[e].particle;
-          if (seen_in[i] == pocket) continue;
-          seen_in[i] = pocket;
-          if ((positions.row(i).transpose() - middle).norm() < radii[i] + reach)
-            listed_.push_back(i);
-        }
-      std::sort(listed_.begin() + listed_starts_.back(), listed_.end());
-      listed_starts_.push_back(static_cast<int>(listed_.size()));
-    }
+  void sort_by_control(const std::vector<std::vector<AtControl>>& lengths) {
+    by_control_.resize(static_cast<std::size_t>(spline_->size()));
+    for (std::size_t i = 0; i < lengths.size(); ++i)
+      for (const AtControl& at : lengths[i])
+        by_control_[at.control].push_back({static_cast<int>(i), at.length});
   }
 
-  /// Adds what one control says of the particles listed.
-  void add(int control, double value, const Vec3& slope, const Mat3& curvature,
-           std::vector<Detour>& detours) const {
-    auto detour = detours.begin();
-    for (int e = starts_[control]; e < starts_[control + 1]; ++e) {
-      const auto [particle, length] = entries_[e];
-      while (detour != detours.end() && detour->particle < particle) ++detour;
-      if (detour == detours.end()) return;
-      if (detour->particle != particle) continue;
-      detour->length += length * value;
-      detour->slope += length * slope;
-      detour->curvature += length * curvature;
-    }
+  /// The particles that any control of the pocket knows and whose detours may count in its cell,
+  /// with what each control says of them. `place_of` is −1 for all particles, before and after.
+  void list(int pocket, const InsideDetours& owner, std::vector<int>& place_of) {
+    const double reach = std::sqrt(0.75) * graph_->width();
+    const Vec3 middle =
+        graph_->corner(graph_->pockets()[pocket].cell) + Vec3::Constant(0.5 * graph_->width());
+    const PocketSpline::Controls& controls = spline_->controls(pocket);
+    const auto first = particles_.size();
+    for (const int control : controls)
+      for (const AtParticle& at : by_control_[control])
+        if (place_of[at.particle] < 0 &&
+            (owner.positions_.row(at.particle).transpose() - middle).norm() <
+                owner.radii_[at.particle] + reach) {
+          place_of[at.particle] = 0;
+          particles_.push_back(at.particle);
+        }
+    std::sort(particles_.begin() + static_cast<std::ptrdiff_t>(first), particles_.end());
+    for (std::size_t k = first; k < particles_.size(); ++k)
+      place_of[particles_[k]] = static_cast<int>(k);
+    values_.resize(particles_.size() * PocketSpline::controls_a_pocket, 0.0f);
+    for (std::size_t c = 0; c < controls.size(); ++c)
+      for (const AtParticle& at : by_control_[controls[c]])
+        if (const int k = place_of[at.particle]; k >= 0)
+          values_[static_cast<std::size_t>(k) * PocketSpline::controls_a_pocket + c] =
+              static_cast<float>(at.length);
+    for (std::size_t k = first; k < particles_.size(); ++k) place_of[particles_[k]] = -1;
+    starts_.push_back(static_cast<int>(particles_.size()));
+  }
+
+  PocketSpline::Values values_of(int k) const {
+    return PocketSpline::Values(
+        &values_[static_cast<std::size_t>(k) * PocketSpline::controls_a_pocket],
+        PocketSpline::controls_a_pocket);
   }
 
   std::shared_ptr<const InsideGraph> graph_;
   std::shared_ptr<const PocketSpline> spline_;
-  std::vector<int> starts_;
-  std::vector<Entry> entries_;  ///< by control, then particle
-  std::vector<int> listed_starts_;
-  std::vector<int> listed_;  ///< particles with detours, by pocket
+  std::vector<std::vector<AtParticle>> by_control_;  ///< while the others are filled
+  std::vector<int> starts_{0};                       ///< of each pocket in the arrays below
+  std::vector<int> particles_;                       ///< with detours, ascending in each pocket
+  std::vector<float> values_;                        ///< 27 a particle: what the controls say of it
 };
 
 InsideDetours::InsideDetours(std::shared_ptr<const InsideGraph> graph, const Points& positions,

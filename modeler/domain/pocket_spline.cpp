@@ -27,16 +27,6 @@ int squared_steps(int control) {
   return step[0] * step[0] + step[1] * step[1] + step[2] * step[2];
 }
 
-/// The three quadratic B-splines that do not vanish at u in [0, 1], with derivatives by u.
-struct Splines {
-  std::array<double, 3> values, slopes, curvatures;
-
-  explicit Splines(double u)
-      : values{0.5 * (1 - u) * (1 - u), 0.5 + u * (1 - u), 0.5 * u * u},
-        slopes{u - 1, 1 - 2 * u, u},
-        curvatures{1, -2, 1} {}
-};
-
 }  // namespace
 
 PocketSpline::PocketSpline(const InsideGraph& graph) : graph_(graph) {
@@ -107,32 +97,40 @@ std::span<const int> PocketSpline::spoken_for(int pocket) const {
   return {spoken_.data() + spoken_starts_[pocket], spoken_.data() + spoken_starts_[pocket + 1]};
 }
 
-PocketSpline::Weights PocketSpline::weights(int pocket, const Vec3& x) const {
+PocketSpline::Basis PocketSpline::basis(int pocket, const Vec3& x) const {
   const double width = graph_.width();
-  const Vec3 u = (x - graph_.corner(graph_.pockets()[pocket].cell)) / width;
-  const std::array<Splines, 3> along = {Splines(u[0]), Splines(u[1]), Splines(u[2])};
-  Weights weights;
-  for (int control = 0; control < count; ++control) {
-    const GridCell step = step_of(control);
-    const auto factor = [&](int axis, int derivative) {
-      const Splines& s = along[axis];
-      return (derivative == 0   ? s.values
-              : derivative == 1 ? s.slopes
-                                : s.curvatures)[step[axis] + 1];
-    };
-    const auto product = [&](int a, int b, int c) {
-      return factor(0, a) * factor(1, b) * factor(2, c);
-    };
-    weights.values[control] = product(0, 0, 0);
-    weights.slopes[control] = Vec3(product(1, 0, 0), product(0, 1, 0), product(0, 0, 1)) / width;
-    Mat3& curvature = weights.curvatures[control];
-    curvature.diagonal() = Vec3(product(2, 0, 0), product(0, 2, 0), product(0, 0, 2));
-    curvature(0, 1) = curvature(1, 0) = product(1, 1, 0);
-    curvature(0, 2) = curvature(2, 0) = product(1, 0, 1);
-    curvature(1, 2) = curvature(2, 1) = product(0, 1, 1);
-    curvature /= width * width;
+  const Vec3 place = (x - graph_.corner(graph_.pockets()[pocket].cell)) / width;
+  Basis basis;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double u = place[axis];
+    basis[axis] = {Vec3(0.5 * (1 - u) * (1 - u), 0.5 + u * (1 - u), 0.5 * u * u),
+                   Vec3(u - 1, 1 - 2 * u, u) / width, Vec3(1, -2, 1) / (width * width)};
   }
-  return weights;
+  return basis;
+}
+
+PocketSpline::Value PocketSpline::sum(const Basis& basis, Values values, Derivatives derivatives) {
+  // Along x first, for each derivative by x: (y, z).
+  std::array<Mat3, 3> by_x;
+  for (int d = 0; d <= static_cast<int>(derivatives); ++d)
+    for (int z = 0; z < 3; ++z)
+      for (int y = 0; y < 3; ++y) {
+        const float* row = &values[static_cast<std::size_t>(9 * z + 3 * y)];
+        by_x[d](y, z) = basis[0][d][0] * row[0] + basis[0][d][1] * row[1] + basis[0][d][2] * row[2];
+      }
+  const auto all = [&](int dx, int dy, int dz) {
+    return basis[1][dy].dot(by_x[dx] * basis[2][dz]);
+  };
+  Value sum;
+  sum.value = all(0, 0, 0);
+  if (derivatives >= Derivatives::first) sum.slope = {all(1, 0, 0), all(0, 1, 0), all(0, 0, 1)};
+  if (derivatives == Derivatives::second) {
+    sum.curvature.diagonal() << all(2, 0, 0), all(0, 2, 0), all(0, 0, 2);
+    sum.curvature(0, 1) = sum.curvature(1, 0) = all(1, 1, 0);
+    sum.curvature(0, 2) = sum.curvature(2, 0) = all(1, 0, 1);
+    sum.curvature(1, 2) = sum.curvature(2, 1) = all(0, 1, 1);
+  }
+  return sum;
 }
 
 }  // namespace supple

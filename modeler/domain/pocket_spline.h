@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modeler/domain/inside_graph.h"
+#include "solver/field/derivatives.h"
 
 namespace supple {
 
@@ -16,11 +17,18 @@ class PocketSpline {
   static constexpr int controls_a_pocket = 27;
   using Controls = std::array<int, controls_a_pocket>;
 
-  /// What a pocket's 27 controls count at a point, with derivatives.
-  struct Weights {
-    std::array<double, controls_a_pocket> values;
-    std::array<Vec3, controls_a_pocket> slopes;      ///< [1/m]
-    std::array<Mat3, controls_a_pocket> curvatures;  ///< [1/m²]
+  /// The quadratic B-splines along the three axes that do not vanish at a point: values, first and
+  /// second derivatives.
+  using Basis = std::array<std::array<Vec3, 3>, 3>;
+
+  /// What the controls of a pocket say.
+  using Values = std::span<const float, controls_a_pocket>;
+
+  /// A spline's value with its derivatives.
+  struct Value {
+    double value = 0;
+    Vec3 slope = Vec3::Zero();      ///< [1/m]
+    Mat3 curvature = Mat3::Zero();  ///< [1/m²]
   };
 
   explicit PocketSpline(const InsideGraph& graph);
@@ -33,7 +41,11 @@ class PocketSpline {
   /// those that no nearer pocket speaks for.
   std::span<const int> spoken_for(int pocket) const;
 
-  Weights weights(int pocket, const Vec3& x) const;
+  /// Of x in the cell of a pocket.
+  Basis basis(int pocket, const Vec3& x) const;
+
+  /// The spline with these values, where the basis was taken.
+  static Value sum(const Basis& basis, Values values, Derivatives derivatives);
 
  private:
   void share_controls();

@@ -3,11 +3,12 @@
 #include <vector>
 
 #include "solver/core/types.h"
+#include "solver/field/derivatives.h"
 
 namespace supple {
 
 /// How much longer the way inside the shape from a point x to a particle is than the straight
-/// line, with its derivatives by x.
+/// line, with its derivatives by x as far as they were asked for.
 struct Detour {
   int particle = 0;
   double length = 0;              ///< δ [m] ≥ 0
@@ -24,7 +25,7 @@ class Detours {
 
   /// The detours at x [m] that are not zero, ascending by particle. A particle that cannot be
   /// reached at all has a length beyond every support.
-  virtual void at(const Vec3& x, std::vector<Detour>& detours) const = 0;
+  virtual void at(const Vec3& x, Derivatives derivatives, std::vector<Detour>& detours) const = 0;
 };
 
 }  // namespace supple

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -77,6 +78,35 @@ struct BlockSpan {
   int rank() const { return static_cast<int>((shares.array() >= 0.5).count()); }
 };
 
+/// True only where all eigenvalues stand well above the window: det S ≤ λ_min (tr S/(N − 1))^(N−1).
+template <int N>
+bool surely_sound(const RankWindow& window, const Eigen::Matrix<double, N, N>& S) {
+  double most = 1;
+  for (int k = 1; k < N; ++k) most *= S.trace() / (N - 1);
+  return S.determinant() > 100 * window.sound * most;
+}
+
+/// S⁻¹ with its derivatives by x: dG = −G dS G.
+template <int N, int Dim, int Order>
+void plain_inverse(const JetMatrix<N, Dim, Order>& S, JetMatrix<N, Dim, Order>& G) {
+  using Matrix = Eigen::Matrix<double, N, N>;
+  G[0] = S[0].inverse();
+  if constexpr (Order >= 1) {
+    std::array<Matrix, Dim> slopes;  // dS G
+    for (int k = 0; k < Dim; ++k) {
+      slopes[k].noalias() = S[1 + k] * G[0];
+      G[1 + k].noalias() = -G[0] * slopes[k];
+    }
+    if constexpr (Order >= 2)
+      for (int k = 0; k < Dim; ++k)
+        for (int l = k; l < Dim; ++l) {
+          const int place = 1 + Dim + Jet<Dim, Order>::pair(k, l);
+          const Matrix bend = slopes[k] * slopes[l] + slopes[l] * slopes[k] - S[place] * G[0];
+          G[place].noalias() = G[0] * bend;
+        }
+  }
+}
+
 /// G = s(S)/S for a symmetric positive semi-definite S that depends on x, with the derivatives
 /// of G by x (Daleckii & Krein: in S's eigenvectors they are divided differences times dS).
 template <int N, int Dim, int Order>
@@ -85,6 +115,11 @@ BlockSpan<N> filtered_inverse(const RankWindow& window, const JetMatrix<N, Dim, 
   using Matrix = Eigen::Matrix<double, N, N>;
   using Layout = Jet<Dim, Order>;
   BlockSpan<N> span;
+  if constexpr (N <= 3)
+    if (surely_sound<N>(window, S[0])) {
+      plain_inverse<N, Dim, Order>(S, G);
+      return span;
+    }
   Eigen::Matrix<double, N, 1> lambda;
   symmetric_eigen<N>(S[0], span.axes, lambda);
   const Matrix& V = span.axes;

@@ -3,15 +3,13 @@
 #include <memory>
 #include <vector>
 
+#include "solver/field/derivatives.h"
 #include "solver/field/detours.h"
 #include "solver/field/kernel.h"
 #include "solver/field/moving_least_squares_options.h"
 #include "solver/field/neighbors.h"
 
 namespace supple {
-
-/// How many derivatives of the shape functions are wanted.
-enum class Derivatives { none, first, second };
 
 template <int Dim>
 using MatrixOf = Eigen::Matrix<double, Dim, Dim>;

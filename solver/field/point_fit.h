@@ -26,6 +26,9 @@ class PointFit {
   void weigh(const MovingLeastSquares<Dim>& field, const VectorOf<Dim>& x,
              std::vector<int>& particles) {
     find_detours(field, x);
+    weights_.reserve(particles.size());
+    offsets_.reserve(particles.size());
+    supports_.reserve(particles.size());
     const bool singular = field.options().kernel == KernelKind::singular;
     std::size_t kept = 0;
     double greatest = 0;
@@ -71,13 +74,15 @@ class PointFit {
     if (order_ == BasisOrder::constant) invert_linear();
     const std::vector<J>& v = block_weights();
     const double over_scale = over_scale_.value();
-    slopes.resize(static_cast<Index>(r_.size()), Dim);
-    for (std::size_t j = 0; j < r_.size(); ++j)
+    slopes.resize(static_cast<Index>(v.size()), Dim);
+    for (std::size_t j = 0; j < v.size(); ++j) {
+      const LinearJets r = place(j);
       for (int a = 0; a < Dim; ++a) {
         double slope = 0;
-        for (int b = 0; b < Dim; ++b) slope += linear_inverse_[0](a, b) * r_[j][b].value();
+        for (int b = 0; b < Dim; ++b) slope += linear_inverse_[0](a, b) * r[b].value();
         slopes(static_cast<Index>(j), a) = v[j].value() * over_scale * slope;
       }
+    }
     if (!anchored()) return;
     slopes.row(static_cast<Index>(anchor_)).setZero();
     slopes.row(static_cast<Index>(anchor_)) = -slopes.colwise().sum();
@@ -151,7 +156,7 @@ class PointFit {
 
   void find_detours(const MovingLeastSquares<Dim>& field, const VectorOf<Dim>& x) {
     if constexpr (Dim == 3)
-      if (field.detours()) field.detours()->at(x, detours_);
+      if (field.detours()) field.detours()->at(x, Derivatives{Order}, detours_);
   }
 
   /// (1 − δ²/h²)³: what a detour δ leaves of a weight.
@@ -173,16 +178,29 @@ class PointFit {
   using LinearJets = std::array<J, Dim>;
   using QuadraticJets = std::array<J, quadratics>;
 
-  /// r_j = (x_j − x̄)/h̄ and e = (x − x̄)/h̄, with the weighted means x̄ and h̄.
+  /// Offsets from a fixed place, the weighted mean's value, which x may move without moving it:
+  /// only the mean m from there has derivatives, and they are the same for all particles.
   void centre() {
-    LinearJets mean{};
+    origin_.setZero();
+    for (std::size_t j = 0; j < weights_.size(); ++j) origin_ += weights_[j].value() * offsets_[j];
+    for (VectorOf<Dim>& offset : offsets_) offset -= origin_;
+    mean_ = {};
     for (std::size_t j = 0; j < weights_.size(); ++j)
-      for (int a = 0; a < Dim; ++a) mean[a] += weights_[j] * offset(j, a);
-    r_.resize(weights_.size());
-    for (std::size_t j = 0; j < weights_.size(); ++j)
-      for (int a = 0; a < Dim; ++a) r_[j][a] = (offset(j, a) - mean[a]) * over_scale_;
-    for (int a = 0; a < Dim; ++a) e_[a] = J(0.0) - mean[a] * over_scale_;
-    if (anchored()) r_[anchor_] = anchor_place();
+      for (int a = 0; a < Dim; ++a) mean_[a] += weights_[j] * offsets_[j][a];
+    for (int a = 0; a < Dim; ++a) {
+      J at_x(-origin_[a]);
+      if constexpr (Order >= 1) at_x.first(a) = 1;
+      e_[a] = (at_x - mean_[a]) * over_scale_;
+    }
+    if (anchored()) anchor_place_ = anchor_place();
+  }
+
+  /// r_j = (x_j − x̄)/h̄, with the weighted means x̄ and h̄.
+  LinearJets place(std::size_t j) const {
+    if (j == anchor_) return anchor_place_;
+    LinearJets r;
+    for (int a = 0; a < Dim; ++a) r[a] = (J(offsets_[j][a]) - mean_[a]) * over_scale_;
+    return r;
   }
 
   /// ρ = (x_a − x̄)/(τ h̄).
@@ -194,13 +212,6 @@ class PointFit {
           place[a] -= block_weights_[j] * (offsets_[j][a] - offsets_[anchor_][a]);
     for (J& coordinate : place) coordinate = coordinate * over_scale_;
     return place;
-  }
-
-  /// x_j − x along axis a: its derivative by x is −1.
-  J offset(std::size_t j, int a) const {
-    J d(offsets_[j][a]);
-    if constexpr (Order >= 1) d.first(a) = -1;
-    return d;
   }
 
   template <int N>
@@ -228,27 +239,59 @@ class PointFit {
   /// G, the filtered inverse of Σ w r rᵀ.
   void invert_linear() {
     centre();
-    const std::vector<J>& v = block_weights();
-    std::array<J, Dim*(Dim + 1) / 2> moment{};
-    for (std::size_t j = 0; j < r_.size(); ++j)
-      for (int a = 0, at = 0; a < Dim; ++a) {
-        const J weighted = v[j] * r_[j][a];
-        for (int b = a; b < Dim; ++b) moment[at++] += weighted * r_[j][b];
-      }
+    auto moment = linear_moment();
     for (int a = 0; a < Dim; ++a) spread_ += moment[J::pair(a, a)] * (1.0 / Dim);
     span_ =
         filtered_inverse<Dim, Dim, Order>(linear_window, take_apart<Dim>(moment), linear_inverse_);
+  }
+
+  /// Σ w (d − m)(d − m)ᵀ/h̄² over offsets d from the origin: summed without m, which is added after.
+  std::array<J, Dim*(Dim + 1) / 2> linear_moment() const {
+    const std::vector<J>& v = block_weights();
+    std::array<J, Dim*(Dim + 1) / 2> moment{};
+    LinearJets first{};
+    J total;
+    for (std::size_t j = 0; j < v.size(); ++j) {
+      if (j == anchor_) continue;
+      const VectorOf<Dim>& d = offsets_[j];
+      total += v[j];
+      for (int a = 0, at = 0; a < Dim; ++a) {
+        first[a] += v[j] * d[a];
+        for (int b = a; b < Dim; ++b) moment[at++] += v[j] * (d[a] * d[b]);
+      }
+    }
+    for (int a = 0, at = 0; a < Dim; ++a)
+      for (int b = a; b < Dim; ++b, ++at) {
+        moment[at] += (total * mean_[a] - first[a]) * mean_[b] - mean_[a] * first[b];
+        moment[at] = moment[at] * over_scale_ * over_scale_;
+        if (anchored()) moment[at] += v[anchor_] * anchor_place_[a] * anchor_place_[b];
+      }
+    return moment;
   }
 
   /// φ_j += w_j r_jᵀ G e.
   void add_linear(std::vector<J>& phi) const {
     const std::vector<J>& v = block_weights();
     const LinearJets g = multiply<Dim>(linear_inverse_, e_);
-    for (std::size_t j = 0; j < r_.size(); ++j) {
-      J c;
-      for (int a = 0; a < Dim; ++a) c += r_[j][a] * g[a];
+    LinearJets slope;  // by offsets
+    J at_origin;
+    for (int a = 0; a < Dim; ++a) {
+      slope[a] = g[a] * over_scale_;
+      at_origin -= mean_[a] * slope[a];
+    }
+    for (std::size_t j = 0; j < v.size(); ++j) {
+      J c = at_origin;
+      for (int a = 0; a < Dim; ++a) c += slope[a] * offsets_[j][a];
+      if (j == anchor_) c = product(anchor_place_, g);
       phi[j] += v[j] * c;
     }
+  }
+
+  template <std::size_t N>
+  static J product(const std::array<J, N>& a, const std::array<J, N>& b) {
+    J sum;
+    for (std::size_t k = 0; k < N; ++k) sum += a[k] * b[k];
+    return sum;
   }
 
   static QuadraticJets monomials(const LinearJets& r) {
@@ -260,31 +303,29 @@ class PointFit {
 
   /// The quadratic monomials less what the constant and linear blocks hold of them already,
   /// at every particle; returns the same at x.
-  QuadraticJets orthogonal_monomials(std::vector<QuadraticJets>& q) const {
+  QuadraticJets orthogonal_monomials(const std::vector<LinearJets>& r,
+                                     std::vector<QuadraticJets>& q) const {
     const std::vector<J>& v = block_weights();
     QuadraticJets mean{};
     std::array<LinearJets, quadratics> cross{};
-    for (std::size_t j = 0; j < r_.size(); ++j) {
-      q[j] = monomials(r_[j]);
+    for (std::size_t j = 0; j < r.size(); ++j) {
+      q[j] = monomials(r[j]);
       if (j == anchor_)
         for (J& monomial : q[j]) monomial = monomial * tau_;
       for (int m = 0; m < quadratics; ++m) {
         const J weighted = v[j] * q[j][m];
         mean[m] += j == anchor_ ? weights_[j] * q[j][m] : weighted;
-        for (int a = 0; a < Dim; ++a) cross[m][a] += weighted * r_[j][a];
+        for (int a = 0; a < Dim; ++a) cross[m][a] += weighted * r[j][a];
       }
     }
     for (LinearJets& row : cross) row = multiply<Dim>(linear_inverse_, row);
-    const auto subtract = [&](QuadraticJets& at, const LinearJets& r) {
-      for (int m = 0; m < quadratics; ++m) {
-        at[m] -= mean[m];
-        for (int a = 0; a < Dim; ++a) at[m] -= cross[m][a] * r[a];
-      }
+    const auto subtract = [&](QuadraticJets& at, const LinearJets& place) {
+      for (int m = 0; m < quadratics; ++m) at[m] -= mean[m] + product(cross[m], place);
     };
-    if (anchored()) subtract(q[anchor_], r_[anchor_]);  // of all others the mean is τ times this
+    if (anchored()) subtract(q[anchor_], r[anchor_]);  // of all others the mean is τ times this
     for (J& component : mean) component = anchored() ? component * tau_ : component;
-    for (std::size_t j = 0; j < r_.size(); ++j)
-      if (j != anchor_) subtract(q[j], r_[j]);
+    for (std::size_t j = 0; j < r.size(); ++j)
+      if (j != anchor_) subtract(q[j], r[j]);
     QuadraticJets at_x = monomials(e_);
     subtract(at_x, e_);
     return at_x;
@@ -293,8 +334,10 @@ class PointFit {
   /// φ_j += w_j q_jᵀ G q(x) with G the filtered inverse of Σ w q qᵀ. The block is measured by
   /// the square of the linear one, its natural size.
   int add_quadratic(std::vector<J>& phi) {
-    std::vector<QuadraticJets> q(r_.size());
-    const QuadraticJets at_x = orthogonal_monomials(q);
+    std::vector<LinearJets> r(weights_.size());
+    for (std::size_t j = 0; j < r.size(); ++j) r[j] = place(j);
+    std::vector<QuadraticJets> q(r.size());
+    const QuadraticJets at_x = orthogonal_monomials(r, q);
     const J over_size = reciprocal(spread_ * spread_ + J(1e-4));
     const std::vector<J>& v = block_weights();
     std::array<J, quadratics*(quadratics + 1) / 2> moment{};
@@ -310,11 +353,7 @@ class PointFit {
         quadratic_window, take_apart<quadratics>(moment), inverse);
     QuadraticJets g = multiply<quadratics>(inverse, at_x);
     for (J& component : g) component = component * over_size;
-    for (std::size_t j = 0; j < q.size(); ++j) {
-      J c;
-      for (int m = 0; m < quadratics; ++m) c += q[j][m] * g[m];
-      phi[j] += v[j] * c;
-    }
+    for (std::size_t j = 0; j < q.size(); ++j) phi[j] += v[j] * product(q[j], g);
     return span.rank();
   }
 
@@ -324,10 +363,10 @@ class PointFit {
   std::vector<J> squares_, block_weights_;  ///< of the singular kernel alone
   std::size_t anchor_ = no_anchor;
   J tau_;
-  std::vector<VectorOf<Dim>> offsets_;
+  std::vector<VectorOf<Dim>> offsets_;  ///< x_j − x, later x_j − origin
   std::vector<double> supports_;
-  std::vector<LinearJets> r_;
-  LinearJets e_{};
+  VectorOf<Dim> origin_;  ///< from x
+  LinearJets mean_{}, e_{}, anchor_place_{};
   J spread_, over_scale_;
   BlockSpan<Dim> span_;
   JetMatrix<Dim, Dim, Order> linear_inverse_;

@@ -54,7 +54,7 @@ std::vector<int> hidden_from(const Vec3& x, double reach, const Detours* detours
   std::vector<int> hidden;
   if (!detours) return hidden;
   std::vector<Detour> found;
-  detours->at(x, found);
+  detours->at(x, Derivatives::none, found);
   for (const Detour& detour : found)
     if (detour.length > reach) hidden.push_back(detour.particle);
   return hidden;

@@ -67,7 +67,7 @@ std::vector<Vec3> points_with_detours(const Body& body, int count) {
   for (int tries = 0; tries < 100 * count && static_cast<int>(points.size()) < count; ++tries) {
     const Vec3 x = box.lower + random.in_cube(0, 1).cwiseProduct(box.size());
     if (!body.region.contains(x)) continue;
-    body.detours->at(x, detours);
+    body.detours->at(x, Derivatives::none, detours);
     if (!detours.empty()) points.push_back(x);
   }
   return points;

@@ -42,7 +42,7 @@ struct Filled {
 
 double detour(const Detours& detours, int particle, const Vec3& x) {
   std::vector<Detour> found;
-  detours.at(x, found);
+  detours.at(x, Derivatives::second, found);
   for (const Detour& d : found)
     if (d.particle == particle) return d.length;
   return 0;

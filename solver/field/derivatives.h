@@ -1,0 +1,8 @@
+#pragma once
+
+namespace supple {
+
+/// How many derivatives are wanted.
+enum class Derivatives { none, first, second };
+
+}  // namespace supple
