@@ -70,8 +70,7 @@ class Cover {
   }
 
   bool sees_owner(int station, int owner) const {
-    return graph_.sees(graph_.stations().row(station).transpose(), graph_.clearances()[station],
-                       particles_.positions.row(owner).transpose(), 0);
+    return graph_.sees(station, particles_.positions.row(owner).transpose(), 0);
   }
 
   int farthest_pocket() const {

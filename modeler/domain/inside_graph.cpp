@@ -71,10 +71,12 @@ class InsideGraph::Builder {
       ++graph_.cells_.back().station_count;
     }
     graph_.clearances_.resize(count);
+    graph_.layers_.resize(static_cast<std::size_t>(count));
     parallel_chunks(count, points_a_chunk, [&](Index begin, Index end) {
       for (Index i = begin; i < end; ++i) {
         const Vec3 x = graph_.stations_.row(i).transpose();
         graph_.clearances_[i] = graph_.region_.clearance(x);
+        graph_.layers_[i] = graph_.region_.layers(x);
       }
     });
   }
@@ -140,8 +142,7 @@ class InsideGraph::Builder {
   }
 
   bool see(int a, int b) const {
-    return graph_.sees(graph_.stations_.row(a).transpose(), graph_.clearances_[a],
-                       graph_.stations_.row(b).transpose(), graph_.clearances_[b]);
+    return graph_.sees(a, graph_.stations_.row(b).transpose(), graph_.clearances_[b]);
   }
 
   double squared_distance(int a, int b) const {
@@ -186,10 +187,13 @@ class InsideGraph::Builder {
     const Points stations = graph_.stations_.middleRows(first, count);
     const Eigen::VectorXd volumes = graph_.volumes_.segment(first, count);
     const Eigen::VectorXd clearances = graph_.clearances_.segment(first, count);
+    const std::vector<int> layers(graph_.layers_.begin() + first,
+                                  graph_.layers_.begin() + first + count);
     for (Index i = 0; i < count; ++i) {
       graph_.stations_.row(first + i) = stations.row(order[i]);
       graph_.volumes_[first + i] = volumes[order[i]];
       graph_.clearances_[first + i] = clearances[order[i]];
+      graph_.layers_[first + i] = layers[order[i]];
     }
   }
 
@@ -330,10 +334,11 @@ std::pair<int, int> InsideGraph::pockets_in(const GridCell& cell) const {
   return {entry->first_pocket, entry->first_pocket + entry->pocket_count};
 }
 
-bool InsideGraph::sees(const Vec3& a, double clearance_a, const Vec3& b, double clearance_b) const {
+bool InsideGraph::sees(int station, const Vec3& x, double clearance) const {
+  const Vec3 from = stations_.row(station).transpose();
   // Balls that only touch may do so at the walls of a gap.
-  const double reach = 0.999 * (clearance_a + clearance_b);
-  return (a - b).squaredNorm() <= reach * reach || region_.connects(a, b);
+  const double reach = 0.999 * (clearances_[station] + clearance);
+  return (from - x).squaredNorm() <= reach * reach || region_.connects(from, layers_[station], x);
 }
 
 bool InsideGraph::parted() const {
@@ -367,7 +372,7 @@ int InsideGraph::seen_pocket(const Vec3& x, const GridCell& cell) const {
   if (const int pocket = seen_from(x, views, most_views); pocket >= 0) return pocket;
   for (const View& view : views) {
     const Vec3 station = stations_.row(view.station).transpose();
-    if (sees(station, clearances_[view.station], x + beside * (station - x), 0)) return view.pocket;
+    if (sees(view.station, x + beside * (station - x), 0)) return view.pocket;
   }
   return views.front().pocket;
 }
@@ -391,8 +396,7 @@ int InsideGraph::seen_from(const Vec3& x, std::vector<View>& views, std::size_t 
   }
   std::sort(views.begin(), views.end());
   for (const View& view : views)
-    if (sees(stations_.row(view.station).transpose(), clearances_[view.station], x, 0))
-      return view.pocket;
+    if (sees(view.station, x, 0)) return view.pocket;
   return -1;
 }
 

@@ -34,8 +34,7 @@ class InsideGraph {
   GridCell cell_at(const Vec3& x) const;
 
   const Points& stations() const { return stations_; }
-  const Eigen::VectorXd& volumes() const { return volumes_; }        ///< of the stations [m³]
-  const Eigen::VectorXd& clearances() const { return clearances_; }  ///< to walls [m]
+  const Eigen::VectorXd& volumes() const { return volumes_; }  ///< of the stations [m³]
 
   /// Those with stations come first.
   const std::vector<Pocket>& pockets() const { return pockets_; }
@@ -59,9 +58,9 @@ class InsideGraph {
   /// The same, of those with stations: for a place between them one that it is beside.
   int seated_pocket_of(const Vec3& x) const;
 
-  /// True where the straight way between two inside points stays inside. Clearances are their
-  /// distances to the boundary, or less [m].
-  bool sees(const Vec3& a, double clearance_a, const Vec3& b, double clearance_b) const;
+  /// True where the straight way from a station to x inside stays inside. `clearance` of x to the
+  /// boundary, or less [m].
+  bool sees(int station, const Vec3& x, double clearance) const;
 
  private:
   class Builder;
@@ -94,6 +93,7 @@ class InsideGraph {
   Vec3 origin_;
   Points stations_;
   Eigen::VectorXd volumes_, clearances_;
+  std::vector<int> layers_;  ///< of the region, at stations
   std::vector<Pocket> pockets_;
   int seated_ = 0;
   std::vector<int> link_starts_, links_;

@@ -30,8 +30,8 @@ void InsideWays::walk(const Bounds& bounds) {
     Step step = queue_.top();
     queue_.pop();
     if (!(step.way.length < ways_[step.pocket].length)) continue;
-    if (!step.seen && !graph_.sees(graph_.seat(step.pocket), graph_.seat_clearance(step.pocket),
-                                   step.way.turn, step.way.turn_clearance)) {
+    if (!step.seen &&
+        !graph_.sees(graph_.pockets()[step.pocket].seat, step.way.turn, step.way.turn_clearance)) {
       step.way = by_neighbors(step.pocket);
       step.seen = true;
       if (!(step.way.length < ways_[step.pocket].length)) continue;

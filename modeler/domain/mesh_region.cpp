@@ -194,7 +194,7 @@ MeshRegion::MeshRegion(const Points& positions, const Triangles& triangles) {
   TriangleTree winding(surface.positions, surface.triangles);
   std::vector<int> parts = connected_parts(surface.triangles);
   SurfaceContact contact = contact_of(winding, surface, parts);
-  if (contact.own + contact.other > 0 && drop_duplicates(surface)) {
+  if (contact.within() > 0 && drop_duplicates(surface)) {
     winding = TriangleTree(surface.positions, surface.triangles);
     parts = connected_parts(surface.triangles);
     contact = contact_of(winding, surface, parts);
@@ -232,8 +232,14 @@ Vec3 MeshRegion::closest_boundary_point(const Vec3& x) const {
   return parts_->boundary().closest(x - parts_->center).point + parts_->center;
 }
 
-bool MeshRegion::connects(const Vec3& a, const Vec3& b) const {
+int MeshRegion::layers(const Vec3& x) const {
+  if (parts_->cover.contact.within() == 0) return 1;
+  return static_cast<int>(std::max(1L, std::lround(winding_number(x))));
+}
+
+bool MeshRegion::connects(const Vec3& a, int layers_at_a, const Vec3& b) const {
   const Vec3 from = a - parts_->center, to = b - parts_->center;
+  if (parts_->cover.contact.within() == 0) return !parts_->boundary().leaves(from, to);
   std::vector<Crossing> crossings;
   if (parts_->trimmed && parts_->first_cap < parts_->carried.triangles.rows()) {
     parts_->trimmed->crossings(from, to, crossings);
@@ -242,14 +248,12 @@ bool MeshRegion::connects(const Vec3& a, const Vec3& b) const {
   }
   parts_->winding.crossings(from, to, crossings);
   put_in_order(crossings);
-  int change = 0, least = 0;
+  int layers = layers_at_a;
   for (const Crossing& crossing : crossings) {
-    change += crossing.outward ? -1 : 1;
-    least = std::min(least, change);
+    layers += crossing.outward ? -1 : 1;
+    if (layers < 1) return false;
   }
-  if (least == 0) return true;
-  const long start = std::max(1L, std::lround(parts_->winding.winding_number(from)));
-  return start + least >= 1;
+  return true;
 }
 
 double MeshRegion::clearance(const Vec3& x) const {

@@ -42,7 +42,8 @@ class MeshRegion final : public Region {
   Vec3 closest_boundary_point(const Vec3& x) const override;
 
   /// False also where the way crosses two walls at one place: out of the region and in again.
-  bool connects(const Vec3& a, const Vec3& b) const override;
+  int layers(const Vec3& x) const override;
+  bool connects(const Vec3& a, int layers_at_a, const Vec3& b) const override;
   double clearance(const Vec3& x) const override;
   double volume() const override;
   Box bounds() const override;

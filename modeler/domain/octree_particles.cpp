@@ -116,7 +116,7 @@ Nodes thinned(const Region& region, const Octree& octree, double least_distance)
     const bool crowded = std::any_of(near.begin(), near.end(), [&](int other) {
       const auto before = static_cast<std::size_t>(other);
       return before < k && nodes.of_leaves[owners[before]] &&
-             region.connects(x, places.row(other).transpose());
+             region.connects(x, region.layers(x), places.row(other).transpose());
     });
     if (crowded)
       nodes.of_leaves[owners[k]].reset();

@@ -22,7 +22,8 @@ constexpr double unsure_share = 0.1;
 /// A part is turned where its front looks outside by less than this (1/2: rays cannot tell).
 constexpr double clearly_inside = 0.35;
 
-constexpr double most_rays = 10000, least_rays_a_part = 8, most_rays_a_part = 128;
+constexpr double most_rays = 10000, least_rays_a_part = 8;
+constexpr int most_rays_a_part = 128;
 
 /// Parts of a smaller share of the area keep the file's turning: rays for each would take long.
 constexpr double least_area_share = 1e-6;
@@ -175,34 +176,7 @@ class PatchFinder {
   long conflicts_ = 0;
 };
 
-/// Turns closed patches; those that the file says nothing about become cavities where another
-/// patch encloses them. Returns whether any was turned against a clear file.
-bool turn_closed(const Points& positions, Triangles& triangles,
-                 const std::vector<const Patch*>& patches) {
-  std::vector<Index> rows;
-  std::vector<int> parts;
-  for (std::size_t p = 0; p < patches.size(); ++p)
-    for (const Index t : patches[p]->rows) {
-      rows.push_back(t);
-      parts.push_back(static_cast<int>(p));
-    }
-  Triangles closed = rows_of(triangles, rows);
-  const std::vector<double> volumes = part_volumes(positions, closed, parts);
-  std::vector<char> sure(patches.size(), 1);
-  for (std::size_t p = 0; p < patches.size(); ++p) sure[p] = patches[p]->sure();
-  for (Index t = 0; t < closed.rows(); ++t)
-    if (!sure[parts[t]] && volumes[parts[t]] > 0) turn(closed, t);
-  const Triangles before = closed;
-  turn_closed_parts(positions, closed, parts);
-  bool any = false;
-  for (Index t = 0; t < closed.rows(); ++t) {
-    any = any || (sure[parts[t]] && closed.row(t) != before.row(t));
-    triangles.row(rows[t]) = closed.row(t);
-  }
-  return any;
-}
-
-/// Asks rays whether open patches look outside.
+/// Asks rays whether patches look outside.
 class RayVote {
  public:
   RayVote(const Points& positions, const Triangles& triangles)
@@ -253,6 +227,53 @@ class RayVote {
   double diagonal_;
 };
 
+/// The patches' triangles and the patch that each is of.
+struct Gathered {
+  std::vector<Index> rows;
+  std::vector<int> parts;
+  explicit Gathered(const std::vector<const Patch*>& patches) {
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+      rows.insert(rows.end(), patches[p]->rows.begin(), patches[p]->rows.end());
+      parts.resize(rows.size(), static_cast<int>(p));
+    }
+  }
+};
+
+/// Turns the patches that the file says nothing about outwards, or inwards where they are
+/// cavities: rays leave them by an odd number of walls.
+void turn_unsure(const Points& positions, Triangles& closed, const std::vector<int>& parts,
+                 const std::vector<const Patch*>& patches) {
+  const std::vector<double> volumes = part_volumes(positions, closed, parts);
+  std::vector<std::vector<Index>> unsure(patches.size());
+  for (Index t = 0; t < closed.rows(); ++t) {
+    if (patches[parts[t]]->sure()) continue;
+    unsure[parts[t]].push_back(t);
+    if (volumes[parts[t]] < 0) turn(closed, t);
+  }
+  const RayVote vote(positions, closed);
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    if (!unsure[p].empty() && vote.looks_outside(unsure[p], most_rays_a_part, p) < 0.5)
+      for (const Index t : unsure[p]) turn(closed, t);
+}
+
+/// Returns whether any patch was turned against a clear file.
+bool turn_closed(const Points& positions, Triangles& triangles,
+                 const std::vector<const Patch*>& patches) {
+  const Gathered all(patches);
+  Triangles closed = rows_of(triangles, all.rows);
+  if (!std::all_of(patches.begin(), patches.end(),
+                   [](const Patch* patch) { return patch->sure(); }))
+    turn_unsure(positions, closed, all.parts, patches);
+  const Triangles before = closed;
+  turn_closed_parts(positions, closed, all.parts);
+  bool any = false;
+  for (Index t = 0; t < closed.rows(); ++t) {
+    any = any || (patches[all.parts[t]]->sure() && closed.row(t) != before.row(t));
+    triangles.row(all.rows[t]) = closed.row(t);
+  }
+  return any;
+}
+
 /// Turns open patches by rays among themselves. Returns whether any was turned against a clear
 /// file.
 bool turn_open(const Points& positions, Triangles& triangles,
@@ -274,8 +295,8 @@ bool turn_open(const Points& positions, Triangles& triangles,
       if (!(share > least_area_share)) continue;
       std::vector<Index> own(patches[p]->rows.size());
       for (std::size_t i = 0; i < own.size(); ++i) own[i] = starts[p] + static_cast<Index>(i);
-      const int rays =
-          static_cast<int>(std::clamp(most_rays * share, least_rays_a_part, most_rays_a_part));
+      const int rays = static_cast<int>(
+          std::clamp<double>(most_rays * share, least_rays_a_part, most_rays_a_part));
       const double outside = vote.looks_outside(own, rays, static_cast<std::uint64_t>(p));
       turned[p] = outside < (patches[p]->sure() ? clearly_inside : 0.5);
     }

@@ -43,7 +43,9 @@ constexpr double near_boundary = 0.5, far_from_boundary = 1.5;
 constexpr double outside_over_cell = 0.2;
 
 constexpr double reach_over_spacing = 2;  // of a point that covers the boundary
-constexpr double least_cover = 0.6, greatest_opening = 0.3;
+constexpr double least_cover = 0.6;
+/// Less than of a mesh: the points at its rim reach into an opening.
+constexpr double greatest_opening = 0.25;
 
 /// 0 up to 0, 1 from 1 on, C¹.
 double smooth_step(double t) {
@@ -382,18 +384,25 @@ Vec3 PointRegion::closest_boundary_point(const Vec3& x) const {
   return parts_->field.project(parts_->tree.closest(x).point);
 }
 
-bool PointRegion::connects(const Vec3& a, const Vec3& b) const {
+bool PointRegion::connects(const Vec3& a, int, const Vec3& b) const {
   std::vector<Crossing> crossings;
   parts_->tree.crossings(a, b, crossings);
   if (crossings.empty()) return true;
-  std::vector<double> shares = {0, 1};
-  for (const Crossing& crossing : crossings) shares.push_back(crossing.share);
-  std::sort(shares.begin(), shares.end());
+  std::sort(crossings.begin(), crossings.end(),
+            [](const Crossing& x, const Crossing& y) { return x.share < y.share; });
   // The triangles only stand for the boundary: ways along it cross them without leaving.
   const double out = outside_over_cell * parts_->field.cell();
-  for (std::size_t k = 0; k + 1 < shares.size(); ++k)
-    if (signed_distance(a + 0.5 * (shares[k] + shares[k + 1]) * (b - a)) > out) return false;
-  return true;
+  const auto leaves_between = [&](double begin, double end) {
+    return parts_->tree.closest(a + 0.5 * (begin + end) * (b - a), out).triangle < 0;
+  };
+  double exit = 0;  // of the stretch outside that the next entry ends
+  for (const Crossing& crossing : crossings) {
+    if (crossing.outward)
+      exit = crossing.share;
+    else if (leaves_between(exit, crossing.share))
+      return false;
+  }
+  return !crossings.back().outward || !leaves_between(exit, 1);
 }
 
 double PointRegion::clearance(const Vec3& x) const {

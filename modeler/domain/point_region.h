@@ -45,7 +45,7 @@ class PointRegion final : public Region {
 
   /// Ways along the boundary stay inside; gaps narrower than a fifth of the points' spacing or so
   /// are not seen.
-  bool connects(const Vec3& a, const Vec3& b) const override;
+  bool connects(const Vec3& a, int layers_at_a, const Vec3& b) const override;
   double clearance(const Vec3& x) const override;
   double volume() const override;
   Box bounds() const override;

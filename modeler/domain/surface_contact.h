@@ -12,7 +12,8 @@ struct SurfaceContact {
   double own = 0;    ///< within the part that it is of, or against it with no gap
   double other = 0;  ///< within another part or against it, or doubled
   double idle = 0;   ///< outside on both sides: sheets
-  double any() const { return own + other + idle; }
+  double within() const { return own + other; }
+  double any() const { return within() + idle; }
 };
 
 /// By samples spread over the area. `winding`: a tree of just these triangles.

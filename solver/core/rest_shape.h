@@ -19,9 +19,12 @@ class Region {
   /// The boundary point nearest to x [m].
   virtual Vec3 closest_boundary_point(const Vec3& x) const = 0;
 
+  /// How many parts of the region overlap at x inside; 1 where none do.
+  virtual int layers(const Vec3&) const { return 1; }
+
   /// True where the straight way from a to b, both inside, does not leave the region: not even
-  /// for the width of a gap whose two walls touch.
-  virtual bool connects(const Vec3& a, const Vec3& b) const = 0;
+  /// for the width of a gap whose two walls touch. `layers_at_a` = layers(a).
+  virtual bool connects(const Vec3& a, int layers_at_a, const Vec3& b) const = 0;
 
   /// Distance that straight ways from x inside may go before any of them leaves the region or
   /// crosses a wall, at least [m].

@@ -13,6 +13,11 @@ inline MeshRegion region_of(const Mesh& mesh) {
   return MeshRegion(mesh.positions, triangles_of(mesh));
 }
 
+/// Whether the straight way from a to b, both inside, stays inside.
+inline bool connects(const Region& region, const Vec3& a, const Vec3& b) {
+  return region.connects(a, region.layers(a), b);
+}
+
 /// `mesh` with each position x at `map(x)`.
 inline Mesh mapped(Mesh mesh, const std::function<Vec3(const Vec3&)>& map) {
   for (Index i = 0; i < mesh.positions.rows(); ++i)

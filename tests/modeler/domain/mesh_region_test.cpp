@@ -168,8 +168,8 @@ TEST(MeshRegion, ALidIsPutOnABoxWithoutOne) {
   EXPECT_NEAR(box.cover().greatest_opening, 0.1, 0.01);
   EXPECT_NEAR(box.signed_distance({0.5, 0.5, 1.8}), -0.2, 0.02);
   EXPECT_NEAR(box.signed_distance({0.5, 0.5, 2.4}), 0.4, 0.02);
-  EXPECT_TRUE(box.connects({0.5, 0.5, 0.5}, {0.2, 0.7, 1.9}));
-  EXPECT_FALSE(box.connects({0.5, 0.5, 0.5}, {0.5, 0.5, 2.5}));
+  EXPECT_TRUE(connects(box, {0.5, 0.5, 0.5}, {0.2, 0.7, 1.9}));
+  EXPECT_FALSE(connects(box, {0.5, 0.5, 0.5}, {0.5, 0.5, 2.5}));
 }
 
 TEST(MeshRegion, TheBoundaryIsCarriedAlong) {
@@ -192,9 +192,10 @@ TEST(MeshRegion, FacesThatDisagreeAreTurned) {
   EXPECT_NEAR(one.volume(), 1, 1e-12);
 
   const Mesh hollow = joined(make_icosphere(1, 3), turned(make_icosphere(0.5, 3)));
-  // Most faces of the cavity still tell that it is one.
-  EXPECT_NEAR(region_of(turned_at_random(hollow, 0.05, 3)).volume() / region_of(hollow).volume(), 1,
-              1e-12);
+  for (double chance : {0.05, 0.5})
+    EXPECT_NEAR(
+        region_of(turned_at_random(hollow, chance, 3)).volume() / region_of(hollow).volume(), 1,
+        1e-12);
 }
 
 TEST(MeshRegion, OpenSurfacesTurnOutwards) {
@@ -221,16 +222,16 @@ TEST(MeshRegion, OverlapsAreOneWallsThatTouchAreNot) {
   };
   const Vec3 left(0.3, 0.6, 0.6), right(1.4, 0.6, 0.6);
   const MeshRegion overlapping = beside(0.5);
-  EXPECT_TRUE(overlapping.connects(left, right));
+  EXPECT_TRUE(connects(overlapping, left, right));
   EXPECT_NEAR(overlapping.volume(), 2 - 0.5 * 0.75 * 0.75, 0.02);
   EXPECT_GT(overlapping.cover().contact.other, 0.1);
   EXPECT_EQ(overlapping.cover().contact.own, 0);
   // To the edges where a side of one goes into the other, not to the sides within.
   EXPECT_NEAR(overlapping.signed_distance({0.75, 0.6, 0.6}), -std::hypot(0.25, 0.35), 0.01);
   const MeshRegion touching = beside(1);
-  EXPECT_FALSE(touching.connects(left, right));
-  EXPECT_TRUE(touching.connects(left, {0.9, 0.6, 0.6}));
-  EXPECT_FALSE(beside(1.1).connects(left, right));
+  EXPECT_FALSE(connects(touching, left, right));
+  EXPECT_TRUE(connects(touching, left, {0.9, 0.6, 0.6}));
+  EXPECT_FALSE(connects(beside(1.1), left, right));
 }
 
 TEST(MeshRegion, WallsThatAreTheSameTrianglesSeparate) {
@@ -238,8 +239,8 @@ TEST(MeshRegion, WallsThatAreTheSameTrianglesSeparate) {
   const MeshRegion region =
       region_of(joined(box, mapped(box, [](const Vec3& x) -> Vec3 { return x + Vec3(1, 0, 0); })));
   EXPECT_NEAR(region.volume(), 2, 1e-12);
-  EXPECT_FALSE(region.connects({0.5, 0.4, 0.45}, {1.5, 0.4, 0.45}));
-  EXPECT_TRUE(region.connects({0.1, 0.4, 0.45}, {0.9, 0.4, 0.45}));
+  EXPECT_FALSE(connects(region, {0.5, 0.4, 0.45}, {1.5, 0.4, 0.45}));
+  EXPECT_TRUE(connects(region, {0.1, 0.4, 0.45}, {0.9, 0.4, 0.45}));
   EXPECT_GT(region.cover().contact.own, 0.1);  // they share vertices, so they are one part
 }
 

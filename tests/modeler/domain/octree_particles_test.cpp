@@ -44,7 +44,7 @@ void expect_particles(const Region& region, const Particles& particles) {
     for (Index j = 0; j < i; ++j) {
       const Vec3 y = particles.positions.row(j);
       if ((x - y).norm() < 0.3 * particles.spacing * (1 - 1e-9)) {
-        EXPECT_FALSE(region.connects(x, y));
+        EXPECT_FALSE(connects(region, x, y));
       }
     }
   }

@@ -11,6 +11,7 @@
 #include "modeler/domain/shape_error.h"
 #include "solver/core/parallel.h"
 #include "tests/support/point_clouds.h"
+#include "tests/support/region_shapes.h"
 
 namespace supple {
 namespace {
@@ -139,8 +140,8 @@ TEST(PointRegion, DistanceHasNoJumps) {
 TEST(PointRegion, WaysAcrossTheHoleLeaveTheRegion) {
   const PointCloud cloud = Torus().cloud(4000);
   const PointRegion region(cloud.positions, cloud.normals);
-  EXPECT_FALSE(region.connects({0.3, 0, 0}, {-0.3, 0, 0}));
-  EXPECT_TRUE(region.connects({0.3, 0, 0}, {0.3 * std::cos(0.8), 0.3 * std::sin(0.8), 0}));
+  EXPECT_FALSE(connects(region, {0.3, 0, 0}, {-0.3, 0, 0}));
+  EXPECT_TRUE(connects(region, {0.3, 0, 0}, {0.3 * std::cos(0.8), 0.3 * std::sin(0.8), 0}));
 }
 
 TEST(PointRegion, DoesNotDependOnTheNumberOfThreads) {
@@ -193,14 +194,19 @@ TEST(PointRegion, FlatCloudsAreRefusedWithWords) {
 
 TEST(PointRegion, OpenSurfacesAreRefusedWithAdvice) {
   Random random(9);
-  Points hills(4000, 3);
+  Points hills(4000, 3), bowl(4000, 3);
   for (Index i = 0; i < 4000; ++i) {
     const double x = random.uniform(-0.4, 0.4), y = random.uniform(-0.4, 0.4);
     hills.row(i) << x, y, 0.05 * std::sin(12 * x) * std::cos(9 * y);
+    Vec3 n = random.in_cube(-1, 1).normalized();
+    n.z() = -std::abs(n.z());
+    bowl.row(i) = 0.4 * n.transpose();
   }
-  const std::string words = refusal(hills);
-  EXPECT_NE(words.find("open surface"), std::string::npos) << words;
-  EXPECT_NE(words.find("from all sides"), std::string::npos) << words;
+  for (const Points& open : {hills, bowl}) {
+    const std::string words = refusal(open);
+    EXPECT_NE(words.find("open surface"), std::string::npos) << words;
+    EXPECT_NE(words.find("from all sides"), std::string::npos) << words;
+  }
 }
 
 /// A scan of the shared data and points on it.
