@@ -80,13 +80,34 @@ bool passes(const std::array<Vec3, 3>& corners, const Vec3& a, const Vec3& b, Cr
   return true;
 }
 
-/// van Oosterom & Strackee 1983, Eq. 8.
-double solid_angle(const std::array<Vec3, 3>& corners, const Vec3& x) {
-  const Vec3 a = corners[0] - x, b = corners[1] - x, c = corners[2] - x;
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  return 2 * std::atan2(a.dot(b.cross(c)),
-                        la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-}
+/// The sum of triangles' solid angles at x (van Oosterom & Strackee 1983, Eq. 8: twice the angle of
+/// a complex number). Their product has the sum of their angles, but for full turns: one arc
+/// tangent does for all.
+class SolidAngles {
+ public:
+  explicit SolidAngles(const Vec3& x) : x_(x) {}
+
+  void add(const std::array<Vec3, 3>& corners) {
+    const Vec3 a = corners[0] - x_, b = corners[1] - x_, c = corners[2] - x_;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    const double im = a.dot(b.cross(c));
+    const double re = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    const double product_re = re_ * re - im_ * im, product_im = re_ * im + im_ * re;
+    const double size = std::abs(product_re) + std::abs(product_im);
+    if (!(size > 0)) return;  // x is a corner
+    const bool up = im >= 0;
+    if ((im_ >= 0) == up && (product_im >= 0) != up) turns_ += up ? 1 : -1;
+    re_ = product_re / size;
+    im_ = product_im / size;
+  }
+
+  double sum() const { return 2 * (std::atan2(im_, re_) + 2 * std::numbers::pi * turns_); }
+
+ private:
+  const Vec3& x_;
+  double re_ = 1, im_ = 0;
+  int turns_ = 0;
+};
 
 }  // namespace
 
@@ -209,77 +230,77 @@ ClosestPoint TriangleTree::closest(const Vec3& x, double within) const {
   return best;
 }
 
-void TriangleTree::crossings(const Vec3& a, const Vec3& b, std::vector<Crossing>& found) const {
-  found.clear();
-  if (nodes_.empty()) return;
-  const Vec3 inverse = (b - a).cwiseInverse();
+template <class Enter, class Stop>
+bool TriangleTree::walk(const Enter& enter, const Stop& stop) const {
+  if (nodes_.empty()) return false;
   std::array<int, stack_size> stack;
   int size = 0;
   stack[size++] = 0;
   while (size > 0) {
     const int at = stack[--size];
+    if (!enter(at)) continue;
     const Node& node = nodes_[at];
-    if (!touches(node.box, a, inverse)) continue;
     if (!node.leaf()) {
       stack[size++] = node.second;
       stack[size++] = at + 1;
       continue;
     }
-    for (int t = node.first; t < node.first + node.count; ++t) {
-      Crossing crossing{0, triangles_[t], false};
-      if (passes(corners_[t], a, b, crossing)) found.push_back(crossing);
-    }
+    for (int t = node.first; t < node.first + node.count; ++t)
+      if (stop(t)) return true;
   }
+  return false;
+}
+
+template <class Stop>
+bool TriangleTree::cross(const Vec3& a, const Vec3& b, const Stop& stop) const {
+  const Vec3 inverse = (b - a).cwiseInverse();
+  return walk([&](int node) { return touches(nodes_[node].box, a, inverse); },
+              [&](int t) {
+                Crossing crossing{0, triangles_[t], false};
+                return passes(corners_[t], a, b, crossing) && stop(crossing);
+              });
+}
+
+void TriangleTree::crossings(const Vec3& a, const Vec3& b, std::vector<Crossing>& found) const {
+  found.clear();
+  cross(a, b, [&](const Crossing& crossing) {
+    found.push_back(crossing);
+    return false;
+  });
+}
+
+bool TriangleTree::leaves(const Vec3& a, const Vec3& b) const {
+  return cross(a, b, [](const Crossing& crossing) { return crossing.outward; });
 }
 
 void TriangleTree::meeting(const Box& box, std::vector<int>& found) const {
   found.clear();
-  if (nodes_.empty()) return;
-  std::array<int, stack_size> stack;
-  int size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const int at = stack[--size];
-    const Node& node = nodes_[at];
-    if (!meet(node.box, box)) continue;
-    if (!node.leaf()) {
-      stack[size++] = node.second;
-      stack[size++] = at + 1;
-      continue;
-    }
-    for (int t = node.first; t < node.first + node.count; ++t) {
-      const auto& [p, q, r] = corners_[t];
-      if (meet({p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r)}, box))
-        found.push_back(triangles_[t]);
-    }
-  }
+  walk([&](int node) { return meet(nodes_[node].box, box); },
+       [&](int t) {
+         const auto& [p, q, r] = corners_[t];
+         if (meet({p.cwiseMin(q).cwiseMin(r), p.cwiseMax(q).cwiseMax(r)}, box))
+           found.push_back(triangles_[t]);
+         return false;
+       });
 }
 
 double TriangleTree::winding_number(const Vec3& x) const {
-  if (nodes_.empty()) return 0;
   double sum = 0;
-  std::array<int, stack_size> stack;
-  int size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const int at = stack[--size];
-    const Dipole& dipole = dipoles_[at];
+  const auto is_near = [&](int node) {
+    const Dipole& dipole = dipoles_[node];
     const Vec3 r = dipole.center - x;
     const double r2 = r.squaredNorm();
-    if (r2 > far_ratio * far_ratio * dipole.squared_reach) {
-      sum += (dipole.normal.dot(r) + dipole.moment.trace() - 3 * r.dot(dipole.moment * r) / r2) /
-             (r2 * std::sqrt(r2));
-      continue;
-    }
-    const Node& node = nodes_[at];
-    if (node.leaf()) {
-      for (int t = node.first; t < node.first + node.count; ++t) sum += solid_angle(corners_[t], x);
-    } else {
-      stack[size++] = node.second;
-      stack[size++] = at + 1;
-    }
-  }
-  return sum / (4 * std::numbers::pi);
+    if (r2 <= far_ratio * far_ratio * dipole.squared_reach) return true;
+    sum += (dipole.normal.dot(r) + dipole.moment.trace() - 3 * r.dot(dipole.moment * r) / r2) /
+           (r2 * std::sqrt(r2));
+    return false;
+  };
+  SolidAngles near(x);
+  walk(is_near, [&](int t) {
+    near.add(corners_[t]);
+    return false;
+  });
+  return (sum + near.sum()) / (4 * std::numbers::pi);
 }
 
 }  // namespace supple

@@ -37,6 +37,9 @@ class TriangleTree {
   /// edge passes through each triangle at that edge.
   void crossings(const Vec3& a, const Vec3& b, std::vector<Crossing>& found) const;
 
+  /// True where the segment from a to b passes through any triangle from its back to its front.
+  bool leaves(const Vec3& a, const Vec3& b) const;
+
   /// The triangles whose boxes meet `box`, in no order.
   void meeting(const Box& box, std::vector<int>& found) const;
 
@@ -68,6 +71,15 @@ class TriangleTree {
     int triangle;
   };
   struct Sums;
+
+  /// Goes down into the nodes that enter(node) lets in, and calls stop(t) for the triangles of
+  /// their leaves, until it returns true.
+  template <class Enter, class Stop>
+  bool walk(const Enter& enter, const Stop& stop) const;
+
+  /// Calls stop(crossing) for the triangles that a segment passes through, until it returns true.
+  template <class Stop>
+  bool cross(const Vec3& a, const Vec3& b, const Stop& stop) const;
 
   void split(std::vector<Centroid>& centroids, int first, int count);
   void measure_nodes();
