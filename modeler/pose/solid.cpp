@@ -29,6 +29,9 @@ constexpr double surface_share = 0.15;
 /// Surface samples are no wider than this share of the particles' spacing.
 constexpr double sample_width_over_spacing = 0.5;
 
+/// Vertices that lie closer than this share of the spacing feel the same particles.
+constexpr double vertex_width_over_spacing = 0.125;
+
 /// How far inside a surface points are taken where gaps may have no width, of the diagonal: little
 /// enough to be rounding, and well above that of the segments that part the walls.
 constexpr double beneath = 1e-10;
@@ -63,17 +66,17 @@ Box box_of(const Mesh& mesh, const std::vector<bool>& used) {
   return box;
 }
 
-ParticleSamplingOptions sampling_options(const ShapeSpec& spec, double diagonal, double unit) {
+/// `diagonal` of the shape in the user's coordinates; 1 in ours.
+ParticleSamplingOptions sampling_options(const ShapeSpec& spec, double diagonal) {
   ParticleSamplingOptions options;
   options.count = spec.particles.value_or(default_particles);
-  if (spec.spacing) options.spacing = resolve(*spec.spacing, diagonal) / unit;
+  if (spec.spacing) options.spacing = resolve(*spec.spacing, diagonal) / diagonal;
   return options;
 }
 
 /// Particles and the samples of the volume that they share, as the spec wants them placed.
-ParticleSampling place_particles(const Region& region, const ShapeSpec& spec, double diagonal,
-                                 double unit) {
-  const ParticleSamplingOptions even = sampling_options(spec, diagonal, unit);
+ParticleSampling place_particles(const Region& region, const ShapeSpec& spec, double diagonal) {
+  const ParticleSamplingOptions even = sampling_options(spec, diagonal);
   if (spec.placement == PlacementKind::even) return sample_particles(region, even);
   OctreeParticleOptions options;
   options.count = even.count;
@@ -161,7 +164,7 @@ void Solid::sample(const Mesh& mesh, const ShapeSpec& spec) {
     notes_.push_back(fmt::format("{} vertices that no face uses follow the solid", unused));
   region_ = std::move(solid.region);
   boundary_ = std::move(solid.boundary);
-  ParticleSampling sampling = place_particles(*region_, spec, unit_, unit_);
+  ParticleSampling sampling = place_particles(*region_, spec, unit_);
   particles_ = std::move(sampling.particles);
   if (spec.coupling == CouplingKind::inside) couple_inside(sampling.samples);
   for (std::string& note : solid.empty_parts(particles_.positions))
@@ -180,22 +183,23 @@ void Solid::couple_inside(const VolumeSamples& samples) {
 Points Solid::spread_over_surface(double width) const {
   std::vector<int> all(static_cast<std::size_t>(surface_.size()));
   std::iota(all.begin(), all.end(), 0);
-  const ThinnedSamples thinned = thin_samples(surface_, all, width);
-  Points points(static_cast<Index>(thinned.indices.size()), 3);
-  for (Index k = 0; k < points.rows(); ++k)
-    points.row(k) = surface_.positions.row(thinned.indices[static_cast<std::size_t>(k)]);
-  return points;
+  return surface_.positions(thin_samples(surface_, all, width).indices, Eigen::all);
+}
+
+Points Solid::spread_vertices(double width) const {
+  std::vector<int> used;
+  for (std::size_t i = 0; i < used_.size(); ++i)
+    if (used_[i]) used.push_back(static_cast<int>(i));
+  const SurfaceSamples vertices =
+      point_samples(inner_vertices_, Eigen::VectorXd::Ones(inner_vertices_.rows()));
+  return inner_vertices_(thin_samples(vertices, used, width).indices, Eigen::all);
 }
 
 double Solid::choose_particle_supports(const ShapeSpec& spec) {
   const Points spread = spread_over_surface(sample_width_over_spacing * particles_.spacing);
-  const long used = std::count(used_.begin(), used_.end(), true);
-  Points cover(particles_.size() + used + spread.rows(), 3);
-  cover.topRows(particles_.size()) = particles_.positions;
-  cover.bottomRows(spread.rows()) = spread;
-  Index row = particles_.size();
-  for (std::size_t i = 0; i < used_.size(); ++i)
-    if (used_[i]) cover.row(row++) = inner_vertices_.row(static_cast<Index>(i));
+  const Points vertices = spread_vertices(vertex_width_over_spacing * particles_.spacing);
+  Points cover(particles_.size() + spread.rows() + vertices.rows(), 3);
+  cover << particles_.positions, spread, vertices;
 
   SupportOptions options;
   options.kind = spec.supports;

@@ -71,8 +71,9 @@ class Solid {
   /// How the solid hangs together inside; particles are added where none reaches by ways inside.
   void couple_inside(const VolumeSamples& samples);
   DetoursWithin detours_within_supports();
-  /// Surface points about `width` apart, in our coordinates.
+  // About `width` apart, in our coordinates:
   Points spread_over_surface(double width) const;
+  Points spread_vertices(double width) const;
 
   Triangulation triangulation_;
   std::vector<bool> used_;
