@@ -10,7 +10,7 @@
 namespace supple {
 namespace {
 
-constexpr Index particles_a_chunk = 16;
+constexpr Index particles_a_chunk = 16, pockets_a_chunk = 256;
 
 /// Supports that grew once will grow more: they shall not ask again each time.
 constexpr double foresight = 1.4;
@@ -25,6 +25,17 @@ constexpr double slack = 0.03;
 
 /// What a way cannot be found for counts as so many supports long.
 constexpr double unreachable = 1.5;
+
+/// What the controls of one pocket say of the particles that have detours there.
+struct PocketDetours {
+  std::vector<int> particles;  ///< ascending
+  std::vector<float> lengths;  ///< 27 a particle
+
+  PocketSpline::Values lengths_of(std::size_t k) const {
+    return PocketSpline::Values(&lengths[k * PocketSpline::controls_a_pocket],
+                                PocketSpline::controls_a_pocket);
+  }
+};
 
 }  // namespace
 
@@ -119,22 +130,27 @@ class InsideDetours::Finder {
 /// All particles' detours, by pocket.
 class InsideDetours::Field final : public Detours {
  public:
-  explicit Field(const InsideDetours& owner) : graph_(owner.graph_), spline_(owner.spline_) {
-    sort_by_control(owner.lengths_);
-    std::vector<int> place_of(owner.lengths_.size(), -1);
-    for (int pocket = 0; pocket < static_cast<int>(graph_->pockets().size()); ++pocket)
-      list(pocket, owner, place_of);
-    by_control_ = {};
+  explicit Field(const InsideDetours& owner)
+      : graph_(owner.graph_), spline_(owner.spline_), pockets_(graph_->pockets().size()) {
+    const ByControl by_control = sorted_by_control(owner.lengths_);
+    parallel_chunks(
+        static_cast<Index>(pockets_.size()), pockets_a_chunk, [&](Index begin, Index end) {
+          std::vector<int> place_of(owner.lengths_.size(), -1);
+          for (Index pocket = begin; pocket < end; ++pocket)
+            pockets_[pocket] = list(static_cast<int>(pocket), owner, by_control, place_of);
+        });
   }
 
   void at(const Vec3& x, Derivatives derivatives, std::vector<Detour>& detours) const override {
     detours.clear();
     const int pocket = graph_->pocket_of(x);
-    if (pocket < 0 || starts_[pocket] == starts_[pocket + 1]) return;
+    if (pocket < 0 || pockets_[pocket].particles.empty()) return;
+    const PocketDetours& known = pockets_[pocket];
     const PocketSpline::Basis basis = spline_->basis(pocket, x);
-    for (int k = starts_[pocket]; k < starts_[pocket + 1]; ++k) {
-      const auto [length, slope, curvature] = PocketSpline::sum(basis, values_of(k), derivatives);
-      if (length > 0) detours.push_back({particles_[k], length, slope, curvature});
+    for (std::size_t k = 0; k < known.particles.size(); ++k) {
+      const auto [length, slope, curvature] =
+          PocketSpline::sum(basis, known.lengths_of(k), derivatives);
+      if (length > 0) detours.push_back({known.particles[k], length, slope, curvature});
     }
   }
 
@@ -143,55 +159,49 @@ class InsideDetours::Field final : public Detours {
     int particle;
     double length;
   };
+  using ByControl = std::vector<std::vector<AtParticle>>;
 
-  void sort_by_control(const std::vector<std::vector<AtControl>>& lengths) {
-    by_control_.resize(static_cast<std::size_t>(spline_->size()));
+  ByControl sorted_by_control(const std::vector<std::vector<AtControl>>& lengths) const {
+    ByControl by_control(static_cast<std::size_t>(spline_->size()));
     for (std::size_t i = 0; i < lengths.size(); ++i)
       for (const AtControl& at : lengths[i])
-        by_control_[at.control].push_back({static_cast<int>(i), at.length});
+        by_control[at.control].push_back({static_cast<int>(i), at.length});
+    return by_control;
   }
 
-  /// The particles that any control of the pocket knows and whose detours may count in its cell,
-  /// with what each control says of them. `place_of` is −1 for all particles, before and after.
-  void list(int pocket, const InsideDetours& owner, std::vector<int>& place_of) {
+  /// The particles that any control of the pocket knows and whose detours may count in its cell.
+  /// `place_of` is −1 for all particles, before and after.
+  PocketDetours list(int pocket, const InsideDetours& owner, const ByControl& by_control,
+                     std::vector<int>& place_of) const {
     const double reach = std::sqrt(0.75) * graph_->width();
     const Vec3 middle =
         graph_->corner(graph_->pockets()[pocket].cell) + Vec3::Constant(0.5 * graph_->width());
     const PocketSpline::Controls& controls = spline_->controls(pocket);
-    const auto first = particles_.size();
+    PocketDetours known;
     for (const int control : controls)
-      for (const AtParticle& at : by_control_[control])
+      for (const AtParticle& at : by_control[control])
         if (place_of[at.particle] < 0 &&
             (owner.positions_.row(at.particle).transpose() - middle).norm() <
                 owner.radii_[at.particle] + reach) {
           place_of[at.particle] = 0;
-          particles_.push_back(at.particle);
+          known.particles.push_back(at.particle);
         }
-    std::sort(particles_.begin() + static_cast<std::ptrdiff_t>(first), particles_.end());
-    for (std::size_t k = first; k < particles_.size(); ++k)
-      place_of[particles_[k]] = static_cast<int>(k);
-    values_.resize(particles_.size() * PocketSpline::controls_a_pocket, 0.0f);
+    std::sort(known.particles.begin(), known.particles.end());
+    for (std::size_t k = 0; k < known.particles.size(); ++k)
+      place_of[known.particles[k]] = static_cast<int>(k);
+    known.lengths.resize(known.particles.size() * PocketSpline::controls_a_pocket);
     for (std::size_t c = 0; c < controls.size(); ++c)
-      for (const AtParticle& at : by_control_[controls[c]])
+      for (const AtParticle& at : by_control[controls[c]])
         if (const int k = place_of[at.particle]; k >= 0)
-          values_[static_cast<std::size_t>(k) * PocketSpline::controls_a_pocket + c] =
+          known.lengths[static_cast<std::size_t>(k) * PocketSpline::controls_a_pocket + c] =
               static_cast<float>(at.length);
-    for (std::size_t k = first; k < particles_.size(); ++k) place_of[particles_[k]] = -1;
-    starts_.push_back(static_cast<int>(particles_.size()));
-  }
-
-  PocketSpline::Values values_of(int k) const {
-    return PocketSpline::Values(
-        &values_[static_cast<std::size_t>(k) * PocketSpline::controls_a_pocket],
-        PocketSpline::controls_a_pocket);
+    for (const int particle : known.particles) place_of[particle] = -1;
+    return known;
   }
 
   std::shared_ptr<const InsideGraph> graph_;
   std::shared_ptr<const PocketSpline> spline_;
-  std::vector<std::vector<AtParticle>> by_control_;  ///< while the others are filled
-  std::vector<int> starts_{0};                       ///< of each pocket in the arrays below
-  std::vector<int> particles_;                       ///< with detours, ascending in each pocket
-  std::vector<float> values_;                        ///< 27 a particle: what the controls say of it
+  std::vector<PocketDetours> pockets_;
 };
 
 InsideDetours::InsideDetours(std::shared_ptr<const InsideGraph> graph, const Points& positions,

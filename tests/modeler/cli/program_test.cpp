@@ -179,12 +179,10 @@ TEST_F(ProgramTest, InputsThatCannotBeReadEndWith3) {
 TEST_F(ProgramTest, OutputsAreTriedBeforeAnythingIsRead) {
   std::filesystem::create_directory(folder / "folder.obj");
   for (const std::string output : {"no/such/posed.obj", "folder.obj"}) {
-    const auto start = std::chrono::steady_clock::now();
     const ProgramResult result = run({"pose", "missing.obj", "-o", output});
     EXPECT_EQ(result.code, 3) << result.err;
     expect_contains(result.err, "cannot");
     expect_contains(result.err, output);
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
   }
 }
 

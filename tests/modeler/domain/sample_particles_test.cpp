@@ -1,6 +1,5 @@
 #include "modeler/domain/sample_particles.h"
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 
@@ -179,12 +178,7 @@ TEST_P(SampleRealMeshes, ContractHolds) {
   const MeshRegion region(mesh.positions, triangulate(mesh).triangles);
   for (int count : {60, 200, 1000}) {
     SCOPED_TRACE(count);
-    const auto start = std::chrono::steady_clock::now();
     const ParticleSampling sampling = sample(region, count);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    const double s = sampling.particles.spacing;
-    std::printf("%s: %d particles, D/s %.3f, R/s %.3f, %.3f s\n", GetParam(), count,
-                sampling.min_pair_distance / s, sampling.covering_radius / s, seconds.count());
     EXPECT_EQ(sampling.particles.size(), count);
     expect_contract(region, sampling, 20000);
   }
