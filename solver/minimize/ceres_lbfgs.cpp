@@ -3,6 +3,7 @@
 
 #include <ceres/gradient_problem.h>
 #include <ceres/gradient_problem_solver.h>
+#include <ceres/iteration_callback.h>
 #include <fmt/format.h>
 
 #include "solver/minimize/minimize.h"
@@ -43,6 +44,23 @@ class PreconditionedEnergy final : public ceres::FirstOrderFunction {
   mutable Points u_, gradient_;
 };
 
+/// Stops where so little of the energy at the start is left that it counts as none: a minimum of
+/// zero, as of a rigid motion, is come closer to for ever.
+class NothingLeft final : public ceres::IterationCallback {
+ public:
+  explicit NothingLeft(double share) : share_(share) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
+    if (iteration.iteration == 0) start_ = iteration.cost;
+    return iteration.cost <= share_ * start_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                             : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const double share_;
+  double start_ = 0;
+};
+
 ceres::GradientProblemSolver::Options solver_options(const MinimizeOptions& options) {
   ceres::GradientProblemSolver::Options ceres_options;
   ceres_options.line_search_direction_type = ceres::LBFGS;
@@ -65,7 +83,10 @@ Report minimize_lbfgs(const EnergySum& energy, const Preconditioner& preconditio
   const ceres::GradientProblem problem(function);  // owns the function
   Eigen::VectorXd y = Eigen::VectorXd::Zero(start.size());
   ceres::GradientProblemSolver::Summary summary;
-  ceres::Solve(solver_options(options), problem, y.data(), &summary);
+  ceres::GradientProblemSolver::Options ceres_options = solver_options(options);
+  NothingLeft nothing_left(options.tolerance * options.tolerance);
+  ceres_options.callbacks.push_back(&nothing_left);
+  ceres::Solve(ceres_options, problem, y.data(), &summary);
 
   Report report;
   u = function->displacements(y.data());

@@ -11,6 +11,7 @@
 #include "modeler/domain/shape_error.h"
 #include "solver/core/parallel.h"
 #include "tests/support/all_of.h"
+#include "tests/support/region_shapes.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -166,6 +167,19 @@ TEST(Pose, APieceWithoutHandlesStaysAndIsNamed) {
                           [](const std::string& note) {
                             return note.find("pieces without handles") != std::string::npos;
                           }));
+}
+
+TEST(Pose, APartThatMovesByItselfIsRigidSoon) {
+  const Mesh bar = make_bar({1, 1, 2}, {4, 4, 8});
+  const Mesh pair =
+      joined(bar, mapped(bar, [](const Vec3& x) -> Vec3 { return x + Vec3(3, 0, 0); }));
+  const PoseResult result =
+      pose(pair, scene_with("  handles:\n    - fix: x<1.5 and z<20%\n"
+                            "    - {move: x>1.5 and z>80%, by: [0, 5%, 0]}\n"));
+  EXPECT_EQ(result.report.status, Status::ok);
+  EXPECT_LT(result.report.iterations, 1000);
+  EXPECT_NEAR(result.min_det_F, 1, 1e-5);
+  EXPECT_LT(result.handle_max_error, 1e-6);
 }
 
 TEST(Pose, AVertexThatNoFaceUsesChangesNothing) {
