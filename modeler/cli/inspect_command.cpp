@@ -13,9 +13,9 @@
 #include "modeler/cli/progress_line.h"
 #include "modeler/cli/report_json.h"
 #include "modeler/cli/run_arguments.h"
-#include "modeler/cli/stopwatch.h"
 #include "modeler/domain/shape_error.h"
 #include "solver/core/parallel.h"
+#include "solver/core/stopwatch.h"
 
 namespace supple {
 namespace {

@@ -9,10 +9,10 @@
 #include "modeler/cli/pose_arguments.h"
 #include "modeler/cli/progress_line.h"
 #include "modeler/cli/report_json.h"
-#include "modeler/cli/stopwatch.h"
 #include "modeler/cli/summary.h"
 #include "modeler/domain/shape_error.h"
 #include "solver/core/parallel.h"
+#include "solver/core/stopwatch.h"
 
 namespace supple {
 namespace {

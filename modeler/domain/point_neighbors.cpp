@@ -15,10 +15,6 @@ namespace {
 constexpr Index points_a_chunk = 512;
 
 constexpr int area_neighbors = 16;
-constexpr int radius_neighbors = 6;
-
-/// The sixth neighbour in a square lattice is √2 spacings away, half a cell's diagonal 1/√2.
-constexpr double radius_share = 0.6;
 
 }  // namespace
 
@@ -67,14 +63,6 @@ Eigen::VectorXd point_areas(const PointNeighbors& neighbors, const Points& posit
 
 Eigen::VectorXd point_areas(const Points& positions, const Points& normals) {
   return point_areas(PointNeighbors(positions, area_neighbors), positions, normals);
-}
-
-Eigen::VectorXd point_radii(const Points& positions) {
-  const PointNeighbors neighbors(positions, radius_neighbors);
-  Eigen::VectorXd radii(positions.rows());
-  for (Index i = 0; i < radii.size(); ++i)
-    radii[i] = radius_share * std::sqrt(neighbors.squared_distances(i).back());
-  return radii;
 }
 
 }  // namespace supple

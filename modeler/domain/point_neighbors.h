@@ -38,8 +38,4 @@ Eigen::VectorXd point_areas(const PointNeighbors& neighbors, const Points& posit
                             const Points& normals);
 Eigen::VectorXd point_areas(const Points& positions, const Points& normals);
 
-/// Radius of a disc at each point [m] so that discs of neighbours just overlap: a share of the
-/// distance to the sixth neighbour.
-Eigen::VectorXd point_radii(const Points& positions);
-
 }  // namespace supple

@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
@@ -15,6 +14,7 @@
 #include "modeler/pose/solid.h"
 #include "modeler/surface/deform_mesh.h"
 #include "modeler/surface/fill_gaps.h"
+#include "solver/core/stopwatch.h"
 
 namespace supple {
 namespace {
@@ -28,15 +28,11 @@ class Stages {
   auto run(const std::string& name, const Work& work) {
     name_ = name;
     advance(0);
-    const auto start = std::chrono::steady_clock::now();
     const struct Stop {
       Stages& stages;
-      decltype(start) begin;
-      ~Stop() {
-        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-        stages.report_.seconds.emplace_back(stages.name_, taken.count());
-      }
-    } stop{*this, start};
+      Stopwatch watch;
+      ~Stop() { stages.report_.seconds.emplace_back(stages.name_, watch.seconds()); }
+    } stop{*this, {}};
     return work();
   }
 
@@ -102,12 +98,12 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
   PoseSolver solver(field.mls, field.quadrature, field.points.volumes, handles, spec.weights);
   const MinimizeOptions options{spec.solver, spec.max_iterations, spec.tolerance};
   const int substeps = spec.substeps.value_or(substeps_needed(handles, solid.particles().size()));
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   Report report = solver.solve(
       options, substeps, [&](double share) { stages.advance(share); }, u);
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  const double seconds = watch.seconds();
   for (const auto& [name, share] : solver.time_shares(u))
-    book(result.effects, name, share * taken.count());
+    book(result.effects, name, share * seconds);
   report.notes.push_back(
       fmt::format("handles walked in {} step{}", substeps, substeps == 1 ? "" : "s"));
   if (solver.loose_particles() > 0)

@@ -1,11 +1,11 @@
 #include "modeler/pose/pose_solver.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include <fmt/format.h>
 
 #include "solver/core/rigid_motion.h"
+#include "solver/core/stopwatch.h"
 #include "solver/field/pieces.h"
 
 namespace supple {
@@ -123,7 +123,6 @@ void PoseSolver::predict(const Points& targets_before, const Points& targets, Po
 }
 
 std::vector<std::pair<std::string, double>> PoseSolver::time_shares(const Points& u) const {
-  using Clock = std::chrono::steady_clock;
   std::vector<std::pair<std::string, double>> shares;
   double total = 0;
   for (const EnergyGroup& group : energy_.groups())
@@ -131,9 +130,9 @@ std::vector<std::pair<std::string, double>> PoseSolver::time_shares(const Points
       EnergySum alone(particles_.rows());
       alone.add(*term.energy, *group.samples, group.sample_weights, term.weight);
       Points gradient;
-      const auto start = Clock::now();
+      const Stopwatch watch;
       alone.evaluate(u, &gradient);
-      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+      const double seconds = watch.seconds();
       shares.emplace_back(std::string(term.energy->name()), seconds);
       total += seconds;
     }

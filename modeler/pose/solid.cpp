@@ -1,7 +1,6 @@
 #include "modeler/pose/solid.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -15,6 +14,7 @@
 #include "modeler/domain/octree_particles.h"
 #include "modeler/domain/sample_particles.h"
 #include "modeler/domain/shape_error.h"
+#include "solver/core/stopwatch.h"
 
 namespace supple {
 namespace {
@@ -37,18 +37,16 @@ constexpr double vertex_width_over_spacing = 0.125;
 constexpr double beneath = 1e-10;
 
 /// Adds the time that it lives.
-class Stopwatch {
+class AddedTime {
  public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-  ~Stopwatch() {
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
+  explicit AddedTime(double& seconds) : seconds_(seconds) {}
+  ~AddedTime() { seconds_ += watch_.seconds(); }
+  AddedTime(const AddedTime&) = delete;
+  AddedTime& operator=(const AddedTime&) = delete;
 
  private:
   double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
 };
 
 /// Those that faces use; all of them in a cloud.
@@ -172,7 +170,7 @@ void Solid::sample(const Mesh& mesh, const ShapeSpec& spec) {
 }
 
 void Solid::couple_inside(const VolumeSamples& samples) {
-  const Stopwatch stopwatch(coupling_seconds_);
+  const AddedTime coupling(coupling_seconds_);
   graph_ = std::make_shared<const InsideGraph>(*region_, samples);
   const InsideCover cover = cover_inside(*graph_, particles_);
   if (cover.added > 0)
@@ -219,7 +217,7 @@ DetoursWithin Solid::detours_within_supports() {
   const auto finder =
       std::make_shared<InsideDetours>(graph_, particles_.positions, particles_.spacing);
   return [this, finder](const Eigen::VectorXd& supports, double widest) {
-    const Stopwatch stopwatch(coupling_seconds_);
+    const AddedTime coupling(coupling_seconds_);
     return finder->within(supports, widest);
   };
 }

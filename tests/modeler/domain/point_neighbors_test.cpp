@@ -57,14 +57,6 @@ TEST(PointAreas, OfAThinPartDoNotSeeItsOtherSide) {
   EXPECT_NEAR(point_areas(both.positions, both.normals).sum() / (8 * std::numbers::pi), 1, 0.1);
 }
 
-TEST(PointRadii, DiscsOfASquareLatticeJustOverlap) {
-  Points lattice(400, 3);
-  for (int i = 0; i < 400; ++i) lattice.row(i) << i % 20, i / 20, 0;
-  const Eigen::VectorXd radii = point_radii(lattice);
-  EXPECT_GT(radii.minCoeff(), std::sqrt(0.5));
-  EXPECT_LT(radii[20 * 10 + 10], 1);
-}
-
 TEST(PointSamples, StandForThemselves) {
   const Points points = ball(10).positions;
   const SurfaceSamples samples = point_samples(points, Eigen::VectorXd::LinSpaced(10, 1, 10));
