@@ -127,6 +127,8 @@ class PcdHeaderReader {
       scanner_.fail(fmt::format("POINTS {} is not WIDTH {} times HEIGHT {}", header_.points,
                                 *width_, height_));
     if (header_.points == 0) scanner_.fail("the file has no points");
+    if (header_.points > std::numeric_limits<int>::max())
+      scanner_.fail(fmt::format("{} points", header_.points));
     if (header_.data == PcdData::compressed) return;  // their size stands before the data
     // In text a number takes a digit and a blank; the last one needs no blank.
     const bool text = header_.data == PcdData::ascii;

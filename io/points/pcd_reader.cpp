@@ -129,8 +129,9 @@ class PcdReader {
         if (!has(k)) continue;
         // Points one after the other, or, packed, fields one after the other.
         const PcdField& f = field(k);
-        const char* bytes = unpacked.empty() ? body() + i * header_.stride() + f.offset
-                                             : unpacked.data() + points * f.offset + i * f.bytes();
+        const char* bytes = header_.data == PcdData::binary
+                                ? body() + i * header_.stride() + f.offset
+                                : unpacked.data() + points * f.offset + i * f.bytes();
         row[static_cast<std::size_t>(k)] = k == color ? load<std::uint32_t>(bytes) : load(f, bytes);
       }
       add(static_cast<long long>(i), row);

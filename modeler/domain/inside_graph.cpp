@@ -25,8 +25,10 @@ constexpr std::size_t most_views = 48, most_own_views = 8;
 /// How far beside a point on the boundary is looked, in units of the way to it.
 constexpr double beside = 1e-6;
 
+constexpr int farthest_cell = 1 << 19;
+
 std::uint64_t key_of(const GridCell& cell) {
-  constexpr std::int64_t middle = std::int64_t(1) << 20;
+  constexpr std::int64_t middle = 2 * farthest_cell;
   std::uint64_t key = 0;
   for (const int i : cell) key = key << 21 | static_cast<std::uint64_t>(i + middle);
   return key;
@@ -347,6 +349,8 @@ bool InsideGraph::parted() const {
 }
 
 int InsideGraph::pocket_of(const Vec3& x) const {
+  // Points of no face may lie anywhere, beyond what cells can be numbered.
+  if (!((x - origin_).cwiseAbs().maxCoeff() < farthest_cell * width_)) return -1;
   const GridCell cell = cell_at(x);
   const CellEntry* entry = find(cell);
   if (entry && entry->only >= 0) return entry->only;

@@ -14,6 +14,7 @@ namespace supple {
 namespace {
 
 constexpr double one_place = 1e-9;  // of the diagonal
+constexpr double outermost = 0.02;  // share of the points at each end of an axis
 constexpr int neighbor_count = 16;
 constexpr int most_rounds = 6;  // what is alone shows only when its like are gone
 
@@ -24,6 +25,24 @@ constexpr double not_a_sheet = 0.06;      // share of the spread off the plane
 constexpr double off_sheet = 5.0;         // deviations of the neighbours from their plane
 constexpr double far_off_sheet = 0.5;     // distances to the farthest neighbour
 
+double quantile(std::vector<double> values, double share) {
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// Without the outermost along each axis: a few far outliers must not tell how large the cloud is.
+Box box_of_most(const Points& positions) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<double> values(positions.col(axis).begin(), positions.col(axis).end());
+    box.lower[axis] = quantile(values, outermost);
+    box.upper[axis] = quantile(values, 1 - outermost);
+  }
+  return box;
+}
+
 /// The first point at each place, ascending.
 std::vector<int> first_at_each_place(const Points& positions) {
   struct Place {
@@ -31,14 +50,15 @@ std::vector<int> first_at_each_place(const Points& positions) {
     int point;
     auto operator<=>(const Place&) const = default;
   };
-  const Box box = bounding_box(positions);
+  const Box box = box_of_most(positions);
   const double width = std::max(one_place * box.diagonal(), 1e-300);
   std::vector<Place> places;
   places.reserve(static_cast<std::size_t>(positions.rows()));
   for (Index i = 0; i < positions.rows(); ++i) {
     Place place{{}, static_cast<int>(i)};
     for (int axis = 0; axis < 3; ++axis)
-      place.cell[axis] = std::llround((positions(i, axis) - box.lower[axis]) / width);
+      place.cell[axis] =
+          std::llround(std::clamp((positions(i, axis) - box.lower[axis]) / width, -9e18, 9e18));
     places.push_back(place);
   }
   std::sort(places.begin(), places.end());
@@ -51,12 +71,6 @@ std::vector<int> first_at_each_place(const Points& positions) {
   return result;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// How a point lies to its neighbours.
 class Loneliness {
  public:
@@ -64,7 +78,7 @@ class Loneliness {
       : positions_(positions), neighbors_(positions, neighbor_count) {
     for (Index i = 0; i < positions.rows(); ++i)
       reaches_.push_back(std::sqrt(neighbors_.squared_distances(i).back()));
-    usual_ = median(reaches_);
+    usual_ = quantile(reaches_, 0.5);
   }
 
   bool alone(Index i) const { return far_away(i) || off_the_sheet(i); }
@@ -75,7 +89,7 @@ class Loneliness {
     if (reaches_[i] > too_far_for_cloud * usual_) return true;
     std::vector<double> around;
     for (int j : neighbors_.of(i)) around.push_back(reaches_[j]);
-    return reaches_[i] > far_for_place * median(std::move(around)) ||
+    return reaches_[i] > far_for_place * quantile(std::move(around), 0.5) ||
            principal_axes(positions_, i, neighbors_.of(i)).off_plane() > not_a_sheet;
   }
 
@@ -89,7 +103,7 @@ class Loneliness {
     if (height(i) <= far_off_sheet * reaches_[i]) return false;
     std::vector<double> heights;
     for (int j : others) heights.push_back(height(j));
-    return height(i) > off_sheet * median(std::move(heights));
+    return height(i) > off_sheet * quantile(std::move(heights), 0.5);
   }
 
   const Points& positions_;

@@ -85,13 +85,17 @@ OrientedPoints rows(const OrientedPoints& points, const std::vector<int>& chosen
   return {points.positions(chosen, Eigen::all), points.normals(chosen, Eigen::all), {}};
 }
 
+bool has_normal(const Points& normals, Index i) {
+  const double length = normals.row(i).norm();
+  return length > 0 && std::isfinite(length);
+}
+
 /// Gives normals unit length; returns the points that have one.
 std::vector<int> points_with_normals(Points& normals) {
   std::vector<int> chosen;
   for (Index i = 0; i < normals.rows(); ++i) {
-    const double length = normals.row(i).norm();
-    if (!(length > 0) || !std::isfinite(length)) continue;
-    normals.row(i) /= length;
+    if (!has_normal(normals, i)) continue;
+    normals.row(i).normalize();
     chosen.push_back(static_cast<int>(i));
   }
   return chosen;
@@ -109,7 +113,6 @@ OrientedPoints take_normals(PointCloudReading& reading, const Points& positions,
                             const Points& normals) {
   OrientedPoints points{positions(reading.kept, Eigen::all), normals(reading.kept, Eigen::all), {}};
   const std::vector<int> chosen = points_with_normals(points.normals);
-  reading.without_normal = points.positions.rows() - static_cast<long>(chosen.size());
   if (reading.without_normal > 0) {
     points = rows(points, chosen);
     std::vector<int> kept;
@@ -170,8 +173,12 @@ std::pair<PointCloudReading, OrientedPoints> read_points(const Points& positions
   reading.kept = std::move(clean.kept);
   reading.duplicates = clean.duplicates;
   reading.outliers = clean.outliers;
-  OrientedPoints points = normals.rows() > 0 ? take_normals(reading, positions, normals)
-                                             : guess_normals(reading, positions);
+  for (const int i : reading.kept)
+    if (normals.rows() > 0 && !has_normal(normals, i)) ++reading.without_normal;
+  const bool most_have_normals =
+      normals.rows() > 0 && 2 * reading.without_normal < static_cast<long>(reading.kept.size());
+  OrientedPoints points = most_have_normals ? take_normals(reading, positions, normals)
+                                            : guess_normals(reading, positions);
   return {std::move(reading), std::move(points)};
 }
 
@@ -298,8 +305,10 @@ std::vector<std::string> PointCloudReading::notes() const {
   if (outliers > 0)
     notes.push_back(fmt::format("{} points lie alone, off the surface: left out", outliers));
   if (normals_estimated)
-    notes.push_back("the points have no normals: estimated, and their orientation guessed");
-  if (without_normal > 0)
+    notes.push_back(
+        fmt::format("{} points have no normals: estimated, and their orientation guessed",
+                    without_normal > 0 ? "most" : "the"));
+  else if (without_normal > 0)
     notes.push_back(
         fmt::format("{} points without a normal do not count for the surface", without_normal));
   if (odd_normals > 0)

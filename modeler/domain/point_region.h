@@ -16,8 +16,8 @@ struct PointCloudReading {
   Eigen::VectorXd areas;           ///< that each kept point stands for [m²]
   long duplicates = 0;             ///< points left out because another has their place
   long outliers = 0;               ///< points left out because they lie alone
-  long without_normal = 0;         ///< points left out because no normal could be told
-  bool normals_estimated = false;  ///< and turned by guess
+  long without_normal = 0;         ///< kept points that came without one, beside others with one
+  bool normals_estimated = false;  ///< of all, and turned by guess: most came without one
   bool turned = false;             ///< the normals given look inwards: read the other way
   long odd_normals = 0;            ///< that look against those about them: read as if turned
   double covered = 0;              ///< share of the boundary that lies near points

@@ -26,6 +26,51 @@ constexpr double cell_width = 1.0 / 64;
 /// A cap's corner on the input goes to the rim where it is no farther than so many cells.
 constexpr double rim_reach = 1.75;
 
+/// Solid angles that trimming may count, and the grid for openings: some seconds each. Many large
+/// triangles that cross each other would take for ever: they are looked at less finely.
+constexpr double most_angles = 4e8;
+constexpr Index probes = 32;
+
+/// Winding numbers asked for in a cell of the grid.
+constexpr double asked_a_cell = 4;
+
+/// Solid angles that a winding number counts, on average at the surface.
+double angles_counted(const TriangleTree& winding, const MendedSurface& surface) {
+  double sum = 0;
+  for (Index probe = 0; probe < probes; ++probe) {
+    const auto corners = surface.triangles.row(probe * (surface.triangles.rows() - 1) / probes);
+    const Vec3 middle = surface.positions({corners[0], corners[1], corners[2]}, Eigen::all)
+                            .colwise()
+                            .mean()
+                            .transpose();
+    sum += static_cast<double>(winding.counted_exactly(middle));
+  }
+  return sum / probes;
+}
+
+/// How finely triangles are cut.
+TrimOptions trim_options(const TriangleTree& winding, const MendedSurface& surface) {
+  const double diagonal = surface.box.diagonal();
+  double pieces = 0;
+  for (Index t = 0; t < surface.triangles.rows(); ++t) {
+    const auto corner = [&](int k) { return surface.positions.row(surface.triangles(t, k)); };
+    const double longest = std::max({(corner(1) - corner(0)).norm(), (corner(2) - corner(1)).norm(),
+                                     (corner(0) - corner(2)).norm()});
+    pieces += std::max(1.0, std::pow(longest / (trim_width * diagonal), 2));
+  }
+  const double coarser =
+      std::max(1.0, std::sqrt(2 * pieces * angles_counted(winding, surface) / most_angles));
+  return {coarser * trim_width * diagonal, coarser * trim_grain * diagonal, trim_offset * diagonal};
+}
+
+/// A cell of the grid that openings are looked for on.
+double opening_width(const TriangleTree& winding, const MendedSurface& surface) {
+  const double asked = asked_a_cell / std::pow(cell_width, 3);
+  const double coarser =
+      std::max(1.0, std::cbrt(asked * angles_counted(winding, surface) / most_angles));
+  return coarser * cell_width * surface.box.diagonal();
+}
+
 void append(const Points& points, Points& to) {
   to.conservativeResize(to.rows() + points.rows(), 3);
   to.bottomRows(points.rows()) = points;
@@ -100,7 +145,7 @@ double area_missing(const Points& positions, const Triangles& triangles) {
 /// Puts caps over the openings. Returns the area of the greatest opening.
 double close_openings(const TriangleTree& winding, const MendedSurface& surface,
                       RegionBoundary& boundary) {
-  const double width = cell_width * surface.box.diagonal();
+  const double width = opening_width(winding, surface);
   RegionCover cover = cover_of(winding, surface, width);
   draw_to_rims(surface, rim_reach * width, cover);
   append(cover.caps, static_cast<int>(boundary.positions.rows()), boundary.triangles);
@@ -114,14 +159,12 @@ double close_openings(const TriangleTree& winding, const MendedSurface& surface,
 
 RegionBoundary find_boundary(const TriangleTree& winding, const MendedSurface& surface,
                              const SurfaceContact& contact) {
-  const double diagonal = surface.box.diagonal();
   RegionBoundary boundary;
   boundary.positions = surface.positions;
   TrimmedSurface trimmed =
       contact.any() <= little_contact
           ? untrimmed(surface)
-          : trim(winding, boundary.positions, surface.triangles,
-                 {trim_width * diagonal, trim_grain * diagonal, trim_offset * diagonal});
+          : trim(winding, boundary.positions, surface.triangles, trim_options(winding, surface));
   const double covered = covered_area(surface, boundary.positions, trimmed);
   boundary.triangles = std::move(trimmed.triangles);
   double opening = 0, missing = 0;

@@ -21,7 +21,7 @@ struct Sample {
   int triangle, vertex;
 };
 
-/// One triangle's samples: its edges cut into `pieces`, a sample for each of pieces² parts.
+/// One triangle's samples: one at the middle of each of its parts.
 class TriangleSampler {
  public:
   TriangleSampler(const std::array<Vec3, 3>& corners, const Eigen::Vector3i& vertices, int triangle)
@@ -29,31 +29,60 @@ class TriangleSampler {
     area_ = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
   }
 
-  double longest_edge() const {
-    double longest = 0;
-    for (int k = 0; k < 3; ++k)
-      longest = std::max(longest, (corners_[(k + 1) % 3] - corners_[k]).norm());
-    return longest;
-  }
-
-  /// Parts between lines i, i+1 and j, j+1 of the grid: one upright, and one upside down.
-  void append(int pieces, std::vector<Sample>& samples) const {
+  /// Parts no wider than `width`.
+  void append(double width, std::vector<Sample>& samples) const {
     if (!(area_ > 0)) return;
-    for (int i = 0; i < pieces; ++i)
-      for (int j = 0; i + j < pieces; ++j) {
-        samples.push_back(at((i + 1.0 / 3) / pieces, (j + 1.0 / 3) / pieces, pieces));
-        if (i + j + 1 < pieces)
-          samples.push_back(at((i + 2.0 / 3) / pieces, (j + 2.0 / 3) / pieces, pieces));
-      }
+    const std::array<double, 3> edges = {edge(0), edge(1), edge(2)};  // each across from a corner
+    const auto [shortest, longest] = std::minmax_element(edges.begin(), edges.end());
+    const int pieces = std::max(1, static_cast<int>(std::ceil(*longest / width)));
+    if (needle * *shortest < *longest)
+      append_strips(static_cast<int>(shortest - edges.begin()), *shortest / width, pieces, samples);
+    else
+      append_grid(pieces, samples);
   }
 
  private:
-  Sample at(double u, double v, int pieces) const {
+  /// Of the longest edge and the shortest: such triangles are cut along their length.
+  static constexpr double needle = 8;
+
+  double edge(int corner) const {
+    return (corners_[(corner + 2) % 3] - corners_[(corner + 1) % 3]).norm();
+  }
+
+  /// Parts between lines i, i+1 and j, j+1 of the grid: one upright, and one upside down.
+  void append_grid(int pieces, std::vector<Sample>& samples) const {
+    const double area = area_ / (double(pieces) * pieces);
+    for (int i = 0; i < pieces; ++i)
+      for (int j = 0; i + j < pieces; ++j) {
+        samples.push_back(at((i + 1.0 / 3) / pieces, (j + 1.0 / 3) / pieces, area));
+        if (i + j + 1 < pieces)
+          samples.push_back(at((i + 2.0 / 3) / pieces, (j + 2.0 / 3) / pieces, area));
+      }
+  }
+
+  /// Strips across, from the needle's tip on, each cut into parts; `base` long in their widths.
+  void append_strips(int tip, double base, int strips, std::vector<Sample>& samples) const {
+    for (int i = 0; i < strips; ++i) {
+      const double begin = double(i) / strips, end = double(i + 1) / strips;
+      const double share = end * end - begin * begin;
+      const double along = 2 * (end * end * end - begin * begin * begin) / (3 * share);
+      const int parts = std::max(1, static_cast<int>(std::ceil(along * base)));
+      for (int j = 0; j < parts; ++j) {
+        Vec3 weights;
+        weights[tip] = 1 - along;
+        weights[(tip + 1) % 3] = along * (1 - (j + 0.5) / parts);
+        weights[(tip + 2) % 3] = along * (j + 0.5) / parts;
+        samples.push_back(at(weights[1], weights[2], area_ * share / parts));
+      }
+    }
+  }
+
+  Sample at(double u, double v, double area) const {
     const Vec3 x = corners_[0] + u * (corners_[1] - corners_[0]) + v * (corners_[2] - corners_[0]);
     int nearest = 0;
     for (int k = 1; k < 3; ++k)
       if ((corners_[k] - x).squaredNorm() < (corners_[nearest] - x).squaredNorm()) nearest = k;
-    return {x, area_ / (double(pieces) * pieces), triangle_, vertices_[nearest]};
+    return {x, area, triangle_, vertices_[nearest]};
   }
 
   std::array<Vec3, 3> corners_;
@@ -123,7 +152,7 @@ SurfaceSamples sample_surface(const Points& positions, const Triangles& triangle
     const auto corner = [&](int k) -> Vec3 { return positions.row(triangles(t, k)); };
     const TriangleSampler sampler({corner(0), corner(1), corner(2)}, triangles.row(t),
                                   static_cast<int>(t));
-    sampler.append(std::max(1, int(std::ceil(sampler.longest_edge() / max_width))), samples);
+    sampler.append(max_width, samples);
   }
   const Index count = static_cast<Index>(samples.size());
   SurfaceSamples result{Points(count, 3), Eigen::VectorXd(count), {}, {}};

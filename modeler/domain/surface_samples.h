@@ -15,8 +15,9 @@ struct SurfaceSamples {
   Index size() const { return positions.rows(); }
 };
 
-/// Cuts every triangle into equal parts no wider than `max_width` [m] (each edge into
-/// ceil(longest edge / max_width) pieces) and puts a sample at each part's centroid.
+/// Cuts every triangle into parts no wider than `max_width` [m] and puts a sample at each part's
+/// centroid. The parts are equal: each edge is cut into ceil(longest edge / max_width) pieces; but
+/// needles are cut into strips across.
 SurfaceSamples sample_surface(const Points& positions, const Triangles& triangles,
                               double max_width);
 

@@ -25,10 +25,12 @@ Vec3 outward(const Region& region, const Vec3& x, double step) {
 }
 
 /// The way from x, on the boundary, along the unit vector `inward` until it leaves the region, in
-/// steps as long as the distance to the boundary allows.
+/// steps as long as the distance to the boundary allows; as far as it came
+/// where those are too many, 0 where it missed the wall.
 double way_through(const Region& region, const Vec3& x, const Vec3& inward, double first) {
+  const double longest = region.bounds().diagonal();
   double way = first;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < most_steps && way <= longest; ++step) {
     const Vec3 at = x + way * inward;
     double depth = (region.closest_boundary_point(at) - at).norm();
     if (depth < accuracy * way) {  // a wall: the end, or one that stands inside
@@ -37,7 +39,7 @@ double way_through(const Region& region, const Vec3& x, const Vec3& inward, doub
     }
     way += depth;
   }
-  return way;
+  return way <= longest ? way : 0;
 }
 
 }  // namespace

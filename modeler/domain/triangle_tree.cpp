@@ -284,23 +284,40 @@ void TriangleTree::meeting(const Box& box, std::vector<int>& found) const {
        });
 }
 
-double TriangleTree::winding_number(const Vec3& x) const {
-  double sum = 0;
+template <class Far, class Near>
+void TriangleTree::sum_up(const Vec3& x, const Far& far, const Near& near) const {
   const auto is_near = [&](int node) {
     const Dipole& dipole = dipoles_[node];
     const Vec3 r = dipole.center - x;
-    const double r2 = r.squaredNorm();
-    if (r2 <= far_ratio * far_ratio * dipole.squared_reach) return true;
-    sum += (dipole.normal.dot(r) + dipole.moment.trace() - 3 * r.dot(dipole.moment * r) / r2) /
-           (r2 * std::sqrt(r2));
+    if (r.squaredNorm() <= far_ratio * far_ratio * dipole.squared_reach) return true;
+    far(dipole, r);
     return false;
   };
-  SolidAngles near(x);
   walk(is_near, [&](int t) {
-    near.add(corners_[t]);
+    near(corners_[t]);
     return false;
   });
-  return (sum + near.sum()) / (4 * std::numbers::pi);
+}
+
+double TriangleTree::winding_number(const Vec3& x) const {
+  double sum = 0;
+  SolidAngles angles(x);
+  sum_up(
+      x,
+      [&](const Dipole& dipole, const Vec3& r) {
+        const double r2 = r.squaredNorm();
+        sum += (dipole.normal.dot(r) + dipole.moment.trace() - 3 * r.dot(dipole.moment * r) / r2) /
+               (r2 * std::sqrt(r2));
+      },
+      [&](const Corners& corners) { angles.add(corners); });
+  return (sum + angles.sum()) / (4 * std::numbers::pi);
+}
+
+long TriangleTree::counted_exactly(const Vec3& x) const {
+  long count = 0;
+  sum_up(
+      x, [](const Dipole&, const Vec3&) {}, [&](const Corners&) { ++count; });
+  return count;
 }
 
 }  // namespace supple

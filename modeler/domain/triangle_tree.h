@@ -48,6 +48,9 @@ class TriangleTree {
   /// than 0.1 on closed surfaces: enough to tell one integer from the next.
   double winding_number(const Vec3& x) const;
 
+  /// How many triangles the winding number at x counts exactly: what it costs.
+  long counted_exactly(const Vec3& x) const;
+
  private:
   using Corners = std::array<Vec3, 3>;
 
@@ -71,6 +74,10 @@ class TriangleTree {
     int triangle;
   };
   struct Sums;
+
+  /// What the nodes far from x have of its winding number goes into far(dipole, r).
+  template <class Far, class Near>
+  void sum_up(const Vec3& x, const Far& far, const Near& near) const;
 
   /// Goes down into the nodes that enter(node) lets in, and calls stop(t) for the triangles of
   /// their leaves, until it returns true.

@@ -1,7 +1,6 @@
 #include "modeler/inspect/inspection.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -9,6 +8,7 @@
 #include "modeler/domain/select.h"
 #include "modeler/domain/shape_error.h"
 #include "modeler/domain/surface_samples.h"
+#include "solver/core/stopwatch.h"
 
 namespace supple {
 namespace {
@@ -25,10 +25,9 @@ class Stages {
   template <class Work>
   void run(const std::string& name, const Work& work) {
     if (on_stage_) on_stage_(name);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     work();
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    inspection_.seconds.emplace_back(name, taken.count());
+    inspection_.seconds.emplace_back(name, watch.seconds());
   }
 
  private:
@@ -60,7 +59,7 @@ ThinParts find_thin_parts(const Solid& solid) {
   const SurfaceSamples samples = few_samples(solid, thickness_samples);
   ThinParts thin{
       measure_thickness(solid.region(), samples.positions, samples.areas).scaled(solid.unit()),
-      static_cast<long>(solid.particles().size()), solid.particles().spacing * solid.unit()};
+      static_cast<long>(solid.particles_placed()), solid.particles().spacing * solid.unit()};
   thin.thinner_share = thin.thickness.share_below(thin.spacing);
   thin.wanted_spacing = std::min(thin.spacing, thin.thickness.quantile(most_thin_share));
   thin.wanted_particles =

@@ -31,7 +31,7 @@ struct ThinParts {
   long particles = 0;         ///< as asked for
   double spacing = 0;         ///< theirs
   double thinner_share = 0;   ///< of the surface whose thickness is below the spacing
-  double wanted_spacing = 0;  ///< leaves `followed` of the surface no thinner
+  double wanted_spacing = 0;  ///< leaves all but `most_thin_share` no thinner
   double wanted_particles = 0;
 };
 

@@ -12,6 +12,7 @@
 #include "modeler/domain/inside_detours.h"
 #include "modeler/domain/make_region.h"
 #include "modeler/domain/octree_particles.h"
+#include "modeler/domain/point_cleaning.h"
 #include "modeler/domain/sample_particles.h"
 #include "modeler/domain/shape_error.h"
 #include "solver/core/stopwatch.h"
@@ -49,10 +50,12 @@ class AddedTime {
   Stopwatch watch_;
 };
 
-/// Those that faces use; all of them in a cloud.
+/// Those that faces use; in a cloud all but outliers, which must not tell how large it is.
 std::vector<bool> vertices_of_surface(const Mesh& mesh) {
-  std::vector<bool> used(static_cast<std::size_t>(mesh.positions.rows()), mesh.face_count() == 0);
-  for (const int vertex : mesh.face_vertices) used[static_cast<std::size_t>(vertex)] = true;
+  std::vector<bool> used(static_cast<std::size_t>(mesh.positions.rows()), false);
+  const std::vector<int> vertices =
+      mesh.face_count() > 0 ? mesh.face_vertices : clean_points(mesh.positions).kept;
+  for (const int vertex : vertices) used[static_cast<std::size_t>(vertex)] = true;
   return used;
 }
 
@@ -164,6 +167,7 @@ void Solid::sample(const Mesh& mesh, const ShapeSpec& spec) {
   boundary_ = std::move(solid.boundary);
   ParticleSampling sampling = place_particles(*region_, spec, unit_);
   particles_ = std::move(sampling.particles);
+  particles_placed_ = particles_.size();
   if (spec.coupling == CouplingKind::inside) couple_inside(sampling.samples);
   for (std::string& note : solid.empty_parts(particles_.positions))
     notes_.push_back(std::move(note));

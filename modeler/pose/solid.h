@@ -40,6 +40,8 @@ class Solid {
   const Region& region() const { return *region_; }
   const CarriedBoundary& boundary() const { return boundary_; }
   const Particles& particles() const { return particles_; }
+  /// Without those that were added in parts that no other reaches.
+  Index particles_placed() const { return particles_placed_; }
 
   /// Between the particles and what they reach; null where straight ways stay inside.
   const std::shared_ptr<const Detours>& detours() const { return detours_; }
@@ -87,6 +89,7 @@ class Solid {
   std::optional<CloudSurface> cloud_;
   SurfaceSamples surface_;
   Particles particles_;
+  Index particles_placed_ = 0;
   std::shared_ptr<const Detours> detours_;
   double coupling_seconds_ = 0;
   std::vector<std::string> notes_;

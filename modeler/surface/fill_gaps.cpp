@@ -46,13 +46,15 @@ class GapFiller {
   FilledCloud fill() {
     const Index before = cloud_.rest.positions.rows();
     for (int round = 0;; ++round) {
-      const std::vector<Gap> gaps = choose(find_gaps());
-      if (gaps.empty()) break;
-      const Index room = most_points_ - cloud_.rest.positions.rows();
-      if (static_cast<Index>(gaps.size()) > room || round == most_rounds) {
-        cloud_.gaps = static_cast<long>(gaps.size());
-        break;
+      std::vector<Gap> gaps = choose(find_gaps());
+      const auto room = round == most_rounds
+                            ? 0
+                            : static_cast<std::size_t>(most_points_ - cloud_.rest.positions.rows());
+      if (gaps.size() > room) {
+        cloud_.gaps = static_cast<long>(gaps.size() - room);
+        gaps.resize(room);
       }
+      if (gaps.empty()) break;
       insert(gaps);
     }
     cloud_.added = cloud_.rest.positions.rows() - before;
@@ -155,7 +157,8 @@ class GapFiller {
       added_spacing[k] = spacing(a, b);
     }
     added.normals.values = means(cloud_.rest.normals.values, gaps);
-    added.normals.values.rowwise().normalize();
+    for (Index k = 0; k < added.normals.values.rows(); ++k)
+      added.normals.values.row(k) = added.normals.values.row(k).normalized();  // zeros stay
     added.colors.values = means(cloud_.rest.colors.values, gaps);
     added.radii = means(cloud_.rest.radii, gaps);
     const Mesh carried = deform_mesh(added, deform_(added.positions));

@@ -40,9 +40,9 @@ using DeformPoints = std::function<DeformedSurface(const Points& rest)>;
 /// Puts points between neighbours of a cloud that a deformation has pulled apart: halfway at rest,
 /// on the surface that their normals bend to, carried by the same field; again and again until
 /// neighbours are no farther apart than `stretch` times their distance at rest or the usual
-/// spacing of points there. Normals, colours and radii are means of the neighbours'; no radius
-/// grows by more than `stretch`, since points that part farther have others between them.
-/// `deformed` is `rest` carried by `deform`.
+/// spacing of points there, or a new point would crowd others. Normals, colours and radii are means
+/// of the neighbours'; no radius grows by more than `stretch`, since points that part farther have
+/// others between them. `deformed` is `rest` carried by `deform`.
 FilledCloud fill_gaps(const Mesh& rest, const Mesh& deformed, const DeformPoints& deform,
                       const FillGapsOptions& options = {});
 

@@ -56,6 +56,22 @@ struct ReachingSet {
   }
 };
 
+/// The same for one radius.
+struct NearSet {
+  using DistanceType = double;
+  double squared_radius;
+  const std::vector<int>& particles;
+  std::vector<int>& found;
+
+  std::size_t size() const { return found.size(); }
+  bool full() const { return true; }
+  double worstDist() const { return squared_radius; }
+  bool addPoint(double squared_distance, unsigned i) {
+    if (squared_distance < squared_radius) found.push_back(particles[i]);
+    return true;
+  }
+};
+
 }  // namespace
 
 template <int Dim>
@@ -102,6 +118,17 @@ void Neighbors<Dim>::reaching(const VectorOf<Dim>& x, std::vector<int>& particle
   particles.clear();
   for (const Tree<Dim>& tree : trees_->trees) {
     ReachingSet found{tree.reach * tree.reach, tree.set.particles, trees_->reaches, particles};
+    tree.search->findNeighbors(found, x.data(), nanoflann::SearchParams());
+  }
+  std::sort(particles.begin(), particles.end());
+}
+
+template <int Dim>
+void Neighbors<Dim>::within(const VectorOf<Dim>& x, double radius,
+                            std::vector<int>& particles) const {
+  particles.clear();
+  for (const Tree<Dim>& tree : trees_->trees) {
+    NearSet found{radius * radius, tree.set.particles, particles};
     tree.search->findNeighbors(found, x.data(), nanoflann::SearchParams());
   }
   std::sort(particles.begin(), particles.end());

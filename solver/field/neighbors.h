@@ -30,6 +30,9 @@ class SUPPLE_API Neighbors {
   /// Particles i with |x − x_i| < reach_i, ascending.
   void reaching(const VectorOf<Dim>& x, std::vector<int>& particles) const;
 
+  /// Particles i with |x − x_i| < radius [m], ascending, whatever their reach.
+  void within(const VectorOf<Dim>& x, double radius, std::vector<int>& particles) const;
+
   /// The `count` particles nearest to x (fewer where there are fewer), nearest first.
   std::vector<int> nearest(const VectorOf<Dim>& x, int count) const;
 

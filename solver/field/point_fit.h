@@ -25,6 +25,7 @@ class PointFit {
   /// rim would otherwise vanish in the smallest numbers.
   void weigh(const MovingLeastSquares<Dim>& field, const VectorOf<Dim>& x,
              std::vector<int>& particles) {
+    if (particles.empty()) return;
     find_detours(field, x);
     weights_.reserve(particles.size());
     offsets_.reserve(particles.size());

@@ -16,16 +16,6 @@ constexpr double reach_share = 0.9;
 
 constexpr Index points_per_chunk = 256;
 
-/// h_i ← max_j (h_j − smoothness·|x_i − x_j|).
-void smooth(const Points& particles, double usual, double smoothness, Eigen::VectorXd& radii) {
-  const Eigen::VectorXd grown = radii;
-  for (Index j = 0; j < grown.size(); ++j) {
-    if (grown[j] <= usual) continue;
-    const Eigen::VectorXd distances = (particles.rowwise() - particles.row(j)).rowwise().norm();
-    radii = radii.cwiseMax((grown[j] - smoothness * distances.array()).matrix());
-  }
-}
-
 /// A point asks no more once supports grew this often without reaching it by another particle.
 constexpr int most_vain_rounds = 3;
 
@@ -33,13 +23,47 @@ constexpr int most_vain_rounds = 3;
 struct Reach {
   const Points& particles;
   const std::vector<Mat3>& stretches;
+  Neighbors<3> tree;
+  double most_stretch = 1;  ///< distance over needed radius at the most
+
+  Reach(const Points& points, const std::vector<Mat3>& measures, double usual)
+      : particles(points),
+        stretches(measures),
+        tree(points, Eigen::VectorXd::Constant(points.rows(), usual)) {
+    for (const Mat3& measure : stretches)
+      most_stretch =
+          std::max(most_stretch, 1 / Eigen::SelfAdjointEigenSolver<Mat3>(measure).eigenvalues()[0]);
+  }
 
   /// The support radius that particle i would need to reach x.
   double needed(Index i, const Vec3& x) const {
     const Vec3 way = x - particles.row(i).transpose();
     return stretches.empty() ? way.norm() : (stretches[static_cast<std::size_t>(i)] * way).norm();
   }
+
+  /// Particles that reach x by a support radius up to `most`.
+  std::vector<int> reaching(const Vec3& x, double most) const {
+    std::vector<int> found;
+    tree.within(x, (1 + 1e-9) * most_stretch * most, found);
+    std::erase_if(found, [&](int i) { return needed(i, x) > most; });
+    return found;
+  }
 };
+
+/// h_i ← max_j (h_j − smoothness·|x_i − x_j|), where no h is below the usual.
+void smooth(const Reach& reach, double usual, double smoothness, Eigen::VectorXd& radii) {
+  const Eigen::VectorXd grown = radii;
+  std::vector<int> near;
+  for (Index j = 0; j < grown.size(); ++j) {
+    if (grown[j] <= usual) continue;
+    const Vec3 x = reach.particles.row(j).transpose();
+    reach.tree.within(x, (grown[j] - usual) / smoothness, near);
+    for (const int i : near) {
+      const double distance = (reach.particles.row(i).transpose() - x).norm();
+      radii[i] = std::max(radii[i], grown[j] - smoothness * distance);
+    }
+  }
+}
 
 /// A covered point that asks for wider supports around it.
 struct Demand {
@@ -67,9 +91,8 @@ void meet(const std::vector<Demand>& demands, const Points& cover, const Reach& 
     const double within = reach_share * demand.radius;
     const Vec3 x = cover.row(demand.point).transpose();
     const std::vector<int> hidden = hidden_from(x, within, detours);
-    for (Index i = 0; i < reach.particles.rows(); ++i)
-      if (reach.needed(i, x) <= within &&
-          !std::binary_search(hidden.begin(), hidden.end(), static_cast<int>(i)))
+    for (const int i : reach.reaching(x, within))
+      if (!std::binary_search(hidden.begin(), hidden.end(), i))
         radii[i] = std::max(radii[i], demand.radius);
   }
 }
@@ -77,8 +100,6 @@ void meet(const std::vector<Demand>& demands, const Points& cover, const Reach& 
 /// Demands of the points with fewer particles near than they need.
 std::vector<Demand> sparse_points(const Reach& reach, const Points& cover, double usual,
                                   const SupportOptions& options) {
-  const Neighbors<3> tree(reach.particles,
-                          Eigen::VectorXd::Constant(reach.particles.rows(), usual));
   // Those nearest by a stretched measure are among a few times more of the nearest.
   const int wanted = options.least_neighbors;
   const int candidates = reach.stretches.empty() ? wanted : 4 * wanted;
@@ -87,7 +108,7 @@ std::vector<Demand> sparse_points(const Reach& reach, const Points& cover, doubl
     for (Index k = begin; k < end; ++k) {
       const Vec3 x = cover.row(k).transpose();
       std::vector<double> radii;
-      for (const int i : tree.nearest(x, candidates)) radii.push_back(reach.needed(i, x));
+      for (const int i : reach.tree.nearest(x, candidates)) radii.push_back(reach.needed(i, x));
       std::sort(radii.begin(), radii.end());
       radii.resize(std::min(radii.size(), static_cast<std::size_t>(wanted)));
       needed[k] = radii.back() * (1 + 1e-12) / reach_share;
@@ -174,9 +195,9 @@ Supports choose_supports(const Points& particles, double spacing, const Points& 
   supports.radii = Eigen::VectorXd::Constant(particles.rows(), usual);
   if (options.kind == SupportKind::stretched)
     supports.stretches = stretches_along(particles, usual, options.most_stretch);
-  const Reach reach{particles, supports.stretches};
+  const Reach reach(particles, supports.stretches, usual);
   meet(sparse_points(reach, cover, usual, options), cover, reach, nullptr, supports.radii);
-  smooth(particles, usual, options.smoothness, supports.radii);
+  smooth(reach, usual, options.smoothness, supports.radii);
 
   std::vector<Demand> demands;
   for (Index k = 0; k < cover.rows(); ++k) demands.push_back({k, usual});
@@ -187,7 +208,7 @@ Supports choose_supports(const Points& particles, double spacing, const Points& 
     demands = steep_points(field, cover, std::move(demands), options.most_slope / usual, options);
     if (round == options.rounds) break;
     meet(grown(demands, options), cover, reach, supports.detours.get(), supports.radii);
-    smooth(particles, usual, options.smoothness, supports.radii);
+    smooth(reach, usual, options.smoothness, supports.radii);
   }
   supports.thin = static_cast<long>(demands.size());
   return supports;

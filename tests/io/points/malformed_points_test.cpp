@@ -104,6 +104,10 @@ TEST(MalformedPoints, PcdIsRefusedWithAMessage) {
        "1 points need 12 bytes, 8 are"},
       {"a.pcd", pcd("300000000", "binary_compressed", packed(12, 3600000000u, zeros)), "damaged"},
       {"a.pcd", pcd("1", "binary_compressed", packed(2, 12, "\x20\x05")), "damaged"},
+      {"a.pcd",
+       fields + sizes + types + "WIDTH 1073741824\nHEIGHT 1073741824\nDATA binary_compressed\n" +
+           packed(0, 0, ""),
+       "1152921504606846976 points"},
       {"a.pcd", pcd("1", "binary_compressed", packed(1, 12, "\x05")), "damaged"},
   });
 }

@@ -72,6 +72,15 @@ TEST(CleanPoints, KeepAClosedSurfaceWhole) {
   EXPECT_LE(clean.outliers, 2);
 }
 
+TEST(CleanPoints, AFarOutlierDoesNotJoinTheOthers) {
+  Points points = points_on(make_bar({1, 1, 1}, {1, 1, 1}), 2000).positions;
+  points.row(7) << 1e12, 0, 0;
+  const CleanPoints clean = clean_points(points);
+  EXPECT_EQ(clean.duplicates, 0);
+  EXPECT_GE(clean.outliers, 1);
+  EXPECT_LE(clean.outliers, 3);
+}
+
 TEST(CleanPoints, ManyCopiesAreOne) {
   Points points = ball(200).positions.replicate(40, 1);
   points.row(17) += Eigen::RowVector3d::Constant(1e-13);

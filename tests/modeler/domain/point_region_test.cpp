@@ -192,6 +192,17 @@ TEST(PointRegion, FlatCloudsAreRefusedWithWords) {
   EXPECT_NE(refusal(plane).find("flat: they lie in one line"), std::string::npos) << refusal(plane);
 }
 
+TEST(PointRegion, NormalsOfAFewPointsAreNotTrusted) {
+  const PointCloud cloud = Torus().cloud(4000);
+  Points normals = Points::Zero(4000, 3);
+  normals.topRows(400) = cloud.normals.topRows(400);
+  const PointRegion region(cloud.positions, normals);
+  EXPECT_TRUE(region.reading().normals_estimated);
+  EXPECT_EQ(region.reading().kept.size(), 4000u);
+  EXPECT_TRUE(has_note(region, "most points have no normals"));
+  EXPECT_NEAR(region.volume() / Torus().volume(), 1, 0.02);
+}
+
 TEST(PointRegion, OpenSurfacesAreRefusedWithAdvice) {
   Random random(9);
   Points hills(4000, 3), bowl(4000, 3);

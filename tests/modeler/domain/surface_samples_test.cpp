@@ -51,6 +51,19 @@ TEST(SurfaceSamples, PartsAreNoWiderThanAsked) {
   }
 }
 
+TEST(SurfaceSamples, NeedlesAreCutAcross) {
+  Points corners(3, 3);
+  corners << 0, 0, 0, 1, 0, 0, 1, 0.02, 0;
+  Triangles needle(1, 3);
+  needle << 0, 1, 2;
+  const SurfaceSamples fine = sample_surface(corners, needle, 0.005);
+  EXPECT_LT(fine.size(), 200 * 5);
+  EXPECT_NEAR(fine.areas.sum(), 0.01, 1e-14);
+  const Vec3 centroid = fine.positions.transpose() * fine.areas / fine.areas.sum();
+  EXPECT_NEAR((centroid - corners.colwise().mean().transpose()).norm(), 0, 1e-12);
+  EXPECT_LE(sample_surface(corners, needle, 0.05).size(), 21);
+}
+
 TEST(SurfaceSamples, KnowTheirNearestCorner) {
   const Mesh box = make_bar({1, 2, 0.5}, {1, 1, 1});
   const Triangles triangles = triangles_of(box);

@@ -11,6 +11,8 @@
 #include "modeler/domain/shape_error.h"
 #include "solver/core/parallel.h"
 #include "tests/support/all_of.h"
+#include "tests/support/fingers.h"
+#include "tests/support/point_clouds.h"
 #include "tests/support/region_shapes.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temporary_folder.h"
@@ -266,6 +268,30 @@ TEST(Pose, BendsRealMeshes) {
     EXPECT_LT(std::abs(volume_change(result)), 0.05) << name;
     EXPECT_TRUE(result.mesh.positions.allFinite()) << name;
   }
+}
+
+TEST(Pose, AnOutlierDoesNotTellHowLargeACloudIs) {
+  Mesh ball;
+  ball.positions = points_on(make_icosphere(1, 4), 3000).positions;
+  ball.positions.conservativeResize(3001, 3);
+  ball.positions.row(3000) << 2000, 0, 0;
+  const PoseResult result =
+      pose(ball, scene_with("  handles:\n    - fix: z<10%\n    - {move: z>90%, by: [5%, 0, 0]}\n"));
+  EXPECT_EQ(result.report.status, Status::ok);
+  EXPECT_NEAR(result.volume_before, 4.0 / 3 * EIGEN_PI, 0.1);
+  EXPECT_TRUE(result.mesh.positions.allFinite());
+}
+
+TEST(Pose, AVertexOfNoFaceMayLieAnywhere) {
+  // With a slit, so that ways inside are asked for.
+  Mesh fingers = make_two_fingers(0.05);
+  const Index vertices = fingers.positions.rows();
+  fingers.positions.conservativeResize(vertices + 1, 3);
+  fingers.positions.row(vertices) << 1e12, -1e12, 3e11;
+  const PoseResult result = pose(
+      fingers, scene_with("  handles:\n    - fix: z<10%\n    - {move: z>95%, by: [2%, 0, 0]}\n"));
+  EXPECT_TRUE(result.report.usable());
+  EXPECT_TRUE(result.mesh.positions.allFinite());
 }
 
 TEST(Pose, FillsGapsOfPointCloudsOnly) {

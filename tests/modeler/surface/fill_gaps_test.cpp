@@ -152,11 +152,21 @@ TEST(FillGaps, DoesNotJoinTwoSides) {
   EXPECT_EQ(result.added, 0);
 }
 
+TEST(FillGaps, PointsWithoutANormalGetNeighborsWithoutOne) {
+  Mesh cloud = plane_of_points(0);
+  cloud.normals.values.setZero();
+  const FilledCloud result = filled(cloud, linear(Vec3(3, 1, 1).asDiagonal()));
+  EXPECT_GT(result.added, 0);
+  EXPECT_TRUE(result.deformed.positions.allFinite());
+  EXPECT_TRUE(result.deformed.normals.values.isZero(0));
+}
+
 TEST(FillGaps, SaysWhatStaysOpen) {
   const FillGapsOptions options{.most_growth = 2};
   const FilledCloud result =
       filled(plane_of_points(0), linear(Vec3(9, 9, 1).asDiagonal()), options);
   EXPECT_GT(result.gaps, 0);
+  EXPECT_GT(result.added, 0) << "the widest are filled first";
   EXPECT_LE(result.rest.positions.rows(), 2 * side * side);
 }
 
