@@ -6,7 +6,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build ccache
-  libeigen3-dev libceres-dev libopenblas0-pthread libtbb-dev libnanoflann-dev
+  libeigen3-dev libceres-dev libnlopt-dev libopenblas0-pthread libtbb-dev libnanoflann-dev
   libosmesa6-dev libpng-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev)
 test_packages=(libgtest-dev libbenchmark-dev clang libclang-rt-dev clang-format)
 

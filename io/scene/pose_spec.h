@@ -93,7 +93,8 @@ struct PoseSpec {
     visit("weights", self.weights, {.doc = "weights of the energies"});
     visit("solver", self.solver, {.doc = "minimiser"});
     visit("hard_handles", self.hard_handles,
-          {.doc = "true: handles are met exactly (not available yet)"});
+          {.doc = "true: handles are met exactly, as far as the particles can and they do not "
+                  "contradict each other"});
     visit("max_iterations", self.max_iterations,
           {.doc = "limit for one solve", .min = 1, .max = 1e6});
     visit("tolerance", self.tolerance,

@@ -7,16 +7,6 @@
 #include "io/scene/complaint.h"
 
 namespace supple {
-namespace {
-
-[[noreturn]] void refuse_for_now(const SceneItem& item, std::string_view key,
-                                 std::string_view value) {
-  const SceneItem refused = *find_item(item, key);
-  complain(refused.place, fmt::format("{}: {} is not available yet", refused.path, value));
-}
-
-}  // namespace
-
 std::span<const std::string_view> later_keys(const Scene&) {
   static constexpr std::array<std::string_view, 4> keys{"motion", "simulate", "fracture", "shell"};
   return keys;
@@ -50,8 +40,9 @@ void check_rules(const ShapeSpec& shape, const SceneItem& item) {
 }
 
 void check_rules(const PoseSpec& pose, const SceneItem& item) {
-  if (pose.hard_handles) refuse_for_now(item, "hard_handles", "true");
-  if (pose.solver == MinimizerKind::nlopt) refuse_for_now(item, "solver", "nlopt");
+  if (pose.hard_handles && pose.solver == MinimizerKind::trust_region)
+    complain(find_item(item, "hard_handles")->place,
+             "pose.hard_handles: true, with solver: trust_region; allowed: with lbfgs, nlopt");
 }
 
 void check_rules(const HandleSpec& handle, const SceneItem& item) {

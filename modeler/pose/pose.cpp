@@ -65,15 +65,19 @@ struct SolidField {
   SolidField(const SolidField&) = delete;
 };
 
+/// How far apart handles are sampled, in spacings: hard ones shall be met between samples too.
+constexpr double handle_width = 0.5, hard_handle_width = 0.1;
+
 HandleSamples choose_handles(const Mesh& mesh, const Solid& solid, const Scene& scene) {
   SurfaceSamples samples = solid.surface();
   samples.positions = solid.restored(samples.positions);
-  const HandleContext context{{mesh, solid.triangulation(), solid.box(), scene.folder},
-                              samples,
-                              solid.surface(),
-                              solid.origin(),
-                              solid.unit(),
-                              0.5 * solid.particles().spacing};
+  const HandleContext context{
+      {mesh, solid.triangulation(), solid.box(), scene.folder},
+      samples,
+      solid.surface(),
+      solid.origin(),
+      solid.unit(),
+      (scene.pose->hard_handles ? hard_handle_width : handle_width) * solid.particles().spacing};
   return {make_handles(scene.pose->handles, context), solid.surface().positions};
 }
 
@@ -96,16 +100,18 @@ void book_coupling(std::vector<Effect>& effects, const Solid& solid) {
 Report solve(const Solid& solid, const SolidField& field, const HandleSamples& handles,
              const PoseSpec& spec, Stages& stages, PoseResult& result, Points& u) {
   PoseSolver solver(field.mls, field.quadrature, field.points.volumes, handles, spec.weights);
-  const MinimizeOptions options{spec.solver, spec.max_iterations, spec.tolerance};
-  const int substeps = spec.substeps.value_or(substeps_needed(handles, solid.particles().size()));
+  const PoseSolveOptions options{
+      {spec.solver, spec.max_iterations, spec.tolerance},
+      spec.substeps.value_or(substeps_needed(handles, solid.particles().size())),
+      spec.hard_handles};
   const Stopwatch watch;
   Report report = solver.solve(
-      options, substeps, [&](double share) { stages.advance(share); }, u);
+      options, [&](double share) { stages.advance(share); }, u);
   const double seconds = watch.seconds();
   for (const auto& [name, share] : solver.time_shares(u))
     book(result.effects, name, share * seconds);
-  report.notes.push_back(
-      fmt::format("handles walked in {} step{}", substeps, substeps == 1 ? "" : "s"));
+  report.notes.push_back(fmt::format("handles walked in {} step{}", options.substeps,
+                                     options.substeps == 1 ? "" : "s"));
   if (solver.loose_particles() > 0)
     report.notes.push_back(
         fmt::format("{} of {} particles are in pieces without handles: they stay",
@@ -182,10 +188,20 @@ InversionCount worst_inversion(const Solid& solid, const SolidField& field, cons
   return worst;
 }
 
-long handles_missed(const PoseResult& result) {
-  return std::count_if(result.handles.begin(), result.handles.end(), [](const HandleResidual& h) {
-    return h.max_error > reason_limit(ReasonCode::handle_miss);
-  });
+/// Hard handles that miss by more than this share of the diagonal contradict each other.
+constexpr double hard_miss = 1e-6;
+
+void judge_handles(const PoseSpec& spec, PoseResult& result) {
+  const double limit = spec.hard_handles ? hard_miss : reason_limit(ReasonCode::handle_miss);
+  if (!(result.handle_max_error > limit)) return;
+  const long missed =
+      std::count_if(result.handles.begin(), result.handles.end(),
+                    [&](const HandleResidual& handle) { return handle.max_error > limit; });
+  result.report.degrade(
+      {ReasonCode::handle_miss, missed, result.handle_max_error,
+       fmt::format("a handle misses its place by {:.2g} % of the diagonal{}",
+                   100 * result.handle_max_error,
+                   spec.hard_handles ? ": the particles cannot meet all of them at once" : "")});
 }
 
 /// Points of the field that no particle reaches, or that too few span.
@@ -211,18 +227,15 @@ void judge_cover(const Solid& solid, const SolidField& field, Report& report) {
 /// Beyond this a change of volume is worth a word: the volume weight is a preference.
 constexpr double notable_volume_change = 0.05;
 
-void judge(const Solid& solid, const SolidField& field, const InversionCount& inversion,
-           PoseResult& result) {
+void judge(const Solid& solid, const SolidField& field, const PoseSpec& spec,
+           const InversionCount& inversion, PoseResult& result) {
   Report& report = result.report;
   for (const Reason& reason : solid.reasons()) report.degrade(reason);
   if (inversion.inverted > 0)
     report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
                     fmt::format("{} points are turned inside out, the worst with det F = {:.3g}",
                                 inversion.inverted, inversion.min_det_F)});
-  if (result.handle_max_error > reason_limit(ReasonCode::handle_miss))
-    report.degrade({ReasonCode::handle_miss, handles_missed(result), result.handle_max_error,
-                    fmt::format("a handle misses its place by {:.2g} % of the diagonal",
-                                100 * result.handle_max_error)});
+  judge_handles(spec, result);
   judge_cover(solid, field, report);
   const double change = result.volume_after / result.volume_before - 1;
   if (std::abs(change) > notable_volume_change)
@@ -323,7 +336,7 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
                            fmt::format("{:.0f} % of the surface is thinner than the particles can "
                                        "follow; more particles help",
                                        100 * thin_share)});
-  judge(solid, *field, inversion, result);
+  judge(solid, *field, spec, inversion, result);
   return result;
 }
 

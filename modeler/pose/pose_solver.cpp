@@ -7,6 +7,7 @@
 #include "solver/core/rigid_motion.h"
 #include "solver/core/stopwatch.h"
 #include "solver/field/pieces.h"
+#include "solver/minimize/repair.h"
 
 namespace supple {
 namespace {
@@ -58,20 +59,26 @@ PoseSolver::PoseSolver(const MovingLeastSquares<3>& field, const Samples& quadra
                        const Eigen::VectorXd& volumes, const HandleSamples& handles,
                        const PoseWeights& weights)
     : particles_(field.positions()),
+      quadrature_(quadrature),
       handles_(handles),
+      weights_(weights),
+      volume_shares_(volumes / volumes.sum()),
       handle_samples_(sample_field(field, handles.rest(), SampleContent::values)),
       handle_energy_(handles.rest()),
       energy_(particles_.rows()),
       held_(particles_held(quadrature, handle_samples_, particles_.rows())) {
-  const Eigen::VectorXd shares = volumes / volumes.sum();
   energy_.add(handle_energy_, handle_samples_, handles.weights(), weights.handles);
-  energy_.add(rigidity_, quadrature, shares, weights.rigidity);
-  if (weights.volume > 0) energy_.add(volume_, quadrature, shares, weights.volume);
+  energy_.add(rigidity_, quadrature, volume_shares_, weights.rigidity);
+  if (weights.volume > 0) energy_.add(volume_, quadrature, volume_shares_, weights.volume);
 }
 
-Report PoseSolver::solve(const MinimizeOptions& options, int substeps,
+Report PoseSolver::solve(const PoseSolveOptions& options,
                          const std::function<void(double)>& on_step, Points& u) {
-  const Preconditioner preconditioner(energy_);
+  Way fixed{Preconditioner(energy_), {}, options.minimize};
+  if (options.hard_handles)
+    fixed.constraints.emplace(handle_samples_, handles_.weights(), handles_.targets(1),
+                              fixed.preconditioner);
+  const int substeps = options.substeps;
   Report way;
   double share = 0, factor = 1, energy = 0, most_energy = 0;
   while (share < 1 && way.status != Status::failed) {
@@ -79,7 +86,7 @@ Report PoseSolver::solve(const MinimizeOptions& options, int substeps,
     const double target = share + factor / substeps;
     const double next = target > 1 - 0.01 / substeps ? 1 : target;
     Points pose = u;
-    const Report report = step(preconditioner, options, share, next, pose);
+    const Report report = step(fixed, share, next, pose);
     const double lost = energy - total_energy(report);
     const bool sprang =
         lost > reason_limit(ReasonCode::turn_lost) * most_energy && most_energy > no_energy;
@@ -100,17 +107,53 @@ Report PoseSolver::solve(const MinimizeOptions& options, int substeps,
     most_energy = std::max(most_energy, energy);
     on_step(share);
   }
+  if (way.status != Status::failed) mend(fixed, u, way);
   return way;
 }
 
-Report PoseSolver::step(const Preconditioner& preconditioner, const MinimizeOptions& options,
-                        double from, double to, Points& u) {
+Report PoseSolver::step(const Way& way, double from, double to, Points& u) {
   const Points targets = handles_.targets(to);
   handle_energy_.set_targets(targets);
   predict(handles_.targets(from), targets, u);
-  MinimizeOptions step_options = options;
-  if (to < 1) step_options.tolerance = std::max(options.tolerance, tolerance_on_the_way);
-  return minimize(energy_, preconditioner, step_options, u);
+  MinimizeOptions options = way.options;
+  if (to < 1) options.tolerance = std::max(options.tolerance, tolerance_on_the_way);
+  return minimize_at(way, options, targets, u);
+}
+
+Report PoseSolver::minimize_at(const Way& way, const MinimizeOptions& options,
+                               const Points& targets, Points& u) const {
+  if (!way.constraints) return minimize(energy_, way.preconditioner, options, u);
+  way.constraints->meet(targets, u);
+  return minimize(energy_, way.preconditioner, options, u, &*way.constraints);
+}
+
+/// As rigid as possible first: the pose energies are stationary on shapes collapsed to a plane, a
+/// line or a point. Then with as much weight on volume as on rigidity, which single points that
+/// are still inside out need to get back; then as asked.
+void PoseSolver::mend(const Way& way, Points& u, Report& report) {
+  const long inverted = count_inversions(quadrature_, u).inverted;
+  if (inverted == 0) return;
+  Points mended = u;
+  NearestRotationEnergy rotations(quadrature_.size());
+  EnergySum nearly_rigid(particles_.rows());
+  nearly_rigid.add(handle_energy_, handle_samples_, handles_.weights(), weights_.handles);
+  nearly_rigid.add(rotations, quadrature_, volume_shares_, 1);
+  repair(nearly_rigid, rotations, quadrature_, mended);
+  if (weights_.volume < weights_.rigidity) {
+    EnergySum balanced(particles_.rows());
+    balanced.add(handle_energy_, handle_samples_, handles_.weights(), weights_.handles);
+    balanced.add(rigidity_, quadrature_, volume_shares_, weights_.rigidity);
+    balanced.add(volume_, quadrature_, volume_shares_, weights_.rigidity);
+    minimize(balanced, Preconditioner(balanced), way.options, mended);
+  }
+  Report polished = minimize_at(way, way.options, handles_.targets(1), mended);
+  if (polished.status == Status::failed) return;
+  const long left = count_inversions(quadrature_, mended).inverted;
+  if (left >= inverted) return;
+  u = mended;
+  merge(polished, report);
+  report.notes.push_back(fmt::format("{} points were turned inside out: repaired{}", inverted,
+                                     left > 0 ? fmt::format(", all but {}", left) : ""));
 }
 
 void PoseSolver::predict(const Points& targets_before, const Points& targets, Points& u) const {

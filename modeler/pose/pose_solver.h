@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "modeler/pose/handles.h"
@@ -13,6 +14,12 @@
 #include "solver/minimize/minimize.h"
 
 namespace supple {
+
+struct PoseSolveOptions {
+  MinimizeOptions minimize;
+  int substeps = 1;
+  bool hard_handles = false;  ///< met exactly, as far as they can be
+};
 
 /// The pose energy of one shape, E = λ1 E_handles + λ2 E_rigidity + λ3 E_volume
 /// (Adams & Wicke 2009, Eq. 78), and the way to its minimum.
@@ -26,12 +33,13 @@ class PoseSolver {
   PoseSolver(const PoseSolver&) = delete;
   PoseSolver& operator=(const PoseSolver&) = delete;
 
-  /// Walks the handles from rest to their places in `substeps` steps, each starting from the one
+  /// Walks the handles from rest to their places in substeps, each starting from the one
   /// before; `u` [N×3] holds the pose then. A step after which the shape sprang to another pose
   /// is taken again in halves; where that does not help the report says turn_lost. `on_step` is
-  /// told the share done.
-  Report solve(const MinimizeOptions& options, int substeps,
-               const std::function<void(double share)>& on_step, Points& u);
+  /// told the share done. Where points are turned inside out in the end, the shape is repaired and
+  /// solved again. What `u` holds is where the way starts.
+  Report solve(const PoseSolveOptions& options, const std::function<void(double share)>& on_step,
+               Points& u);
 
   const Samples& handle_samples() const { return handle_samples_; }
 
@@ -42,15 +50,29 @@ class PoseSolver {
   std::vector<std::pair<std::string, double>> time_shares(const Points& u) const;
 
  private:
+  /// What stays the same on the whole way.
+  struct Way {
+    Preconditioner preconditioner;
+    std::optional<HardConstraints> constraints;
+    MinimizeOptions options;
+  };
+
   /// Brings the handles from one share of their way to the next and minimises.
-  Report step(const Preconditioner& preconditioner, const MinimizeOptions& options, double from,
-              double to, Points& u);
+  Report step(const Way& way, double from, double to, Points& u);
+  /// Takes points that are turned inside out back, where that can be.
+  void mend(const Way& way, Points& u, Report& report);
+  Report minimize_at(const Way& way, const MinimizeOptions& options, const Points& targets,
+                     Points& u) const;
+
   /// Moves what hangs together with handles along with them as one body, where that is nearer to
   /// the new minimum.
   void predict(const Points& targets_before, const Points& targets, Points& u) const;
 
   const Points& particles_;
+  const Samples& quadrature_;
   const HandleSamples& handles_;
+  PoseWeights weights_;
+  Eigen::VectorXd volume_shares_;
   Samples handle_samples_;
   HandleEnergy handle_energy_;
   RigidityEnergy rigidity_;

@@ -16,7 +16,7 @@ struct LocalField {
 
 /// Residual r of a term at one sample and its derivative by the term's argument.
 struct LocalResidual {
-  static constexpr int most_rows = 6;
+  static constexpr int most_rows = 9;
   Eigen::Matrix<double, most_rows, 1> r;
   /// ∂r/∂f in the first three columns, or ∂r/∂F with F(a, b) in column 3a + b.
   Eigen::Matrix<double, most_rows, 9> jacobian;

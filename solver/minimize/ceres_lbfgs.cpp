@@ -15,24 +15,36 @@ namespace {
 class PreconditionedEnergy final : public ceres::FirstOrderFunction {
  public:
   PreconditionedEnergy(const EnergySum& energy, const Preconditioner& preconditioner,
-                       const Points& start)
-      : energy_(energy), preconditioner_(preconditioner), start_(start) {}
+                       const HardConstraints* constraints, const Points& start)
+      : energy_(energy),
+        preconditioner_(preconditioner),
+        constraints_(constraints),
+        start_(start) {}
 
   int NumParameters() const override { return static_cast<int>(start_.size()); }
 
   bool Evaluate(const double* parameters, double* cost, double* gradient) const override {
     u_ = displacements(parameters);
     *cost = energy_.evaluate(u_, gradient ? &gradient_ : nullptr);
-    if (!std::isfinite(*cost)) return false;
+    ++evaluations_;
+    if (!std::isfinite(*cost)) {
+      ++not_finite_;
+      return false;
+    }
     if (gradient) {
       preconditioner_.to_gradient(gradient_);
+      if (constraints_) constraints_->project(gradient_);
       Eigen::Map<Points>(gradient, start_.rows(), 3) = gradient_;
     }
     return true;
   }
 
+  int evaluations() const { return evaluations_; }
+  int not_finite() const { return not_finite_; }
+
   Points displacements(const double* parameters) const {
     Points u = Eigen::Map<const Points>(parameters, start_.rows(), 3);
+    if (constraints_) constraints_->project(u);
     preconditioner_.to_displacements(u);
     return u += start_;
   }
@@ -40,8 +52,10 @@ class PreconditionedEnergy final : public ceres::FirstOrderFunction {
  private:
   const EnergySum& energy_;
   const Preconditioner& preconditioner_;
+  const HardConstraints* constraints_;
   const Points& start_;
   mutable Points u_, gradient_;
+  mutable int evaluations_ = 0, not_finite_ = 0;
 };
 
 /// Stops where so little of the energy at the start is left that it counts as none: a minimum of
@@ -77,9 +91,10 @@ ceres::GradientProblemSolver::Options solver_options(const MinimizeOptions& opti
 }  // namespace
 
 Report minimize_lbfgs(const EnergySum& energy, const Preconditioner& preconditioner,
-                      const MinimizeOptions& options, Points& u) {
+                      const MinimizeOptions& options, const HardConstraints* constraints,
+                      Points& u) {
   const Points start = u;
-  auto* function = new PreconditionedEnergy(energy, preconditioner, start);
+  auto* function = new PreconditionedEnergy(energy, preconditioner, constraints, start);
   const ceres::GradientProblem problem(function);  // owns the function
   Eigen::VectorXd y = Eigen::VectorXd::Zero(start.size());
   ceres::GradientProblemSolver::Summary summary;
@@ -91,6 +106,7 @@ Report minimize_lbfgs(const EnergySum& energy, const Preconditioner& preconditio
   Report report;
   u = function->displacements(y.data());
   report.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
+  note_not_finite(function->not_finite(), function->evaluations(), report);
   if (summary.termination_type == ceres::NO_CONVERGENCE)
     report.degrade({ReasonCode::max_iterations, 1, static_cast<double>(report.iterations),
                     fmt::format("stopped after {} iterations", report.iterations)});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "solver/core/check.h"
 
 namespace supple {
@@ -15,9 +17,9 @@ bool gave_up(const Report& report) {
 
 /// L-BFGS; where its line search gives up, the trust region goes on from there, and says so.
 Report run_lbfgs(const EnergySum& energy, const Preconditioner& preconditioner,
-                 const MinimizeOptions& options, Points& u) {
-  const Report lbfgs = minimize_lbfgs(energy, preconditioner, options, u);
-  if (!gave_up(lbfgs) || !u.allFinite()) return lbfgs;
+                 const MinimizeOptions& options, const HardConstraints* constraints, Points& u) {
+  const Report lbfgs = minimize_lbfgs(energy, preconditioner, options, constraints, u);
+  if (!gave_up(lbfgs) || constraints || !u.allFinite()) return lbfgs;
   Report report = minimize_trust_region(energy, options, u);
   report.iterations += lbfgs.iterations;
   report.notes.push_back("the line search gave up; the trust region finished the solve");
@@ -25,22 +27,29 @@ Report run_lbfgs(const EnergySum& energy, const Preconditioner& preconditioner,
 }
 
 Report run(const EnergySum& energy, const Preconditioner& preconditioner,
-           const MinimizeOptions& options, Points& u) {
+           const MinimizeOptions& options, const HardConstraints* constraints, Points& u) {
   switch (options.kind) {
     case MinimizerKind::lbfgs:
-      return run_lbfgs(energy, preconditioner, options, u);
+      return run_lbfgs(energy, preconditioner, options, constraints, u);
     case MinimizerKind::trust_region:
+      SUPPLE_CHECK(!constraints, "the trust region takes no constraints");
       return minimize_trust_region(energy, options, u);
     case MinimizerKind::nlopt:
-      break;
+      return minimize_nlopt(energy, preconditioner, options, constraints, u);
   }
   fail_check("the minimiser is known", __FILE__, __LINE__, std::string(enum_name(options.kind)));
 }
 
 }  // namespace
 
+void note_not_finite(int count, int evaluations, Report& report) {
+  if (count > 0)
+    report.notes.push_back(
+        fmt::format("the energy was not finite at {} of {} evaluations", count, evaluations));
+}
+
 Report minimize(const EnergySum& energy, const Preconditioner& preconditioner,
-                const MinimizeOptions& options, Points& u) {
+                const MinimizeOptions& options, Points& u, const HardConstraints* constraints) {
   SUPPLE_CHECK(u.rows() == energy.particles(), "one displacement a particle");
   Report report;
   if (!u.allFinite() || !std::isfinite(energy.evaluate(u))) {
@@ -48,7 +57,7 @@ Report minimize(const EnergySum& energy, const Preconditioner& preconditioner,
     return report;
   }
   const Points start = u;
-  report = run(energy, preconditioner, options, u);
+  report = run(energy, preconditioner, options, constraints, u);
   if (!u.allFinite()) {
     u = start;
     report.fail({ReasonCode::not_finite, 1, 0, "the minimiser left the finite numbers"});

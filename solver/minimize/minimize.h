@@ -2,6 +2,7 @@
 
 #include "solver/core/report.h"
 #include "solver/energy/energy_sum.h"
+#include "solver/minimize/hard_constraints.h"
 #include "solver/minimize/minimize_options.h"
 #include "solver/minimize/preconditioner.h"
 
@@ -11,14 +12,23 @@ namespace supple {
 /// return they hold the best found, also where the report is not ok. Never leaves NaN in them.
 ///
 /// The preconditioner may be older than the handles' targets, never than the handles themselves.
+/// With `constraints`, which `u` meets, it goes on meeting them; the trust region takes none.
 SUPPLE_API Report minimize(const EnergySum& energy, const Preconditioner& preconditioner,
-                           const MinimizeOptions& options, Points& u);
+                           const MinimizeOptions& options, Points& u,
+                           const HardConstraints* constraints = nullptr);
 
 /// The parts of minimize(), one a method: L-BFGS of Ceres' GradientProblemSolver on the
 /// preconditioned unknowns; Ceres' Levenberg–Marquardt with analytic Jacobians, a residual block
-/// a sample, sparse normal Cholesky.
+/// a sample, sparse normal Cholesky; NLopt's SLSQP, for a hundred particles or so.
 Report minimize_lbfgs(const EnergySum& energy, const Preconditioner& preconditioner,
-                      const MinimizeOptions& options, Points& u);
+                      const MinimizeOptions& options, const HardConstraints* constraints,
+                      Points& u);
+Report minimize_nlopt(const EnergySum& energy, const Preconditioner& preconditioner,
+                      const MinimizeOptions& options, const HardConstraints* constraints,
+                      Points& u);
 Report minimize_trust_region(const EnergySum& energy, const MinimizeOptions& options, Points& u);
+
+/// Notes how often a minimiser met an energy that was not finite.
+void note_not_finite(int count, int evaluations, Report& report);
 
 }  // namespace supple

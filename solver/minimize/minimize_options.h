@@ -6,7 +6,8 @@
 namespace supple {
 
 /// lbfgs: Ceres L-BFGS on preconditioned unknowns; trust_region: the reference;
-/// nlopt: for bounds and hard constraints.
+/// nlopt: sequential quadratic programming (SLSQP), an independent check; its time grows with the
+/// third power of the particles.
 enum class MinimizerKind { lbfgs, trust_region, nlopt };
 SUPPLE_API EnumNames<MinimizerKind> enum_names(MinimizerKind);
 

@@ -43,7 +43,7 @@ Eigen::SparseMatrix<double> proxy(const EnergySum& energy) {
 
 }  // namespace
 
-Preconditioner::Preconditioner(const EnergySum& energy) {
+Preconditioner::Preconditioner(const EnergySum& energy) : particles_(energy.particles()) {
   const Sparse C = proxy(energy);
   if (energy.particles() <= most_dense) {
     dense_.emplace(Eigen::MatrixXd(C));

@@ -19,6 +19,8 @@ class SUPPLE_API Preconditioner {
  public:
   explicit Preconditioner(const EnergySum& energy);
 
+  Index particles() const { return particles_; }
+
   /// Pᵀ L⁻ᵀ y, in place on y [N×3].
   void to_displacements(Points& y) const;
   /// ∂E/∂y = L⁻¹ P ∂E/∂u, in place.
@@ -30,6 +32,7 @@ class SUPPLE_API Preconditioner {
   /// Above this size the sparse factor is the faster one.
   static constexpr Index most_dense = 400;
 
+  Index particles_;
   std::optional<Eigen::LLT<Eigen::MatrixXd>> dense_;
   Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::AMDOrdering<int>> sparse_;
 };

@@ -130,6 +130,18 @@ void measure_few_handles(Figures& figures) {
   measure_collinear_handles(figures);
 }
 
+/// One point with two targets 1 L apart, along x.
+void measure_two_targets(Figures& figures) {
+  const PoseResult result =
+      pose_with(case_bar(),
+                "    - {move: 'nearest(0.5, 0, 2)', by: [-50%, 0, 0]}\n"
+                "    - {move: 'nearest(0.5, 0, 2)', by: [50%, 0, 0], weight: 3}\n");
+  // Free otherwise, the bar goes along as it is.
+  figures["off_mean"] =
+      miss(result, {Mat3::Identity(), diagonal_of(result.rest) * Vec3(0.25, 0, 0)});
+  figures["residuals"] = static_cast<double>(result.handles.size());
+}
+
 /// The line of scene.yaml at which a pose with these handles is refused; 0 for none.
 int line_of_refusal(const std::string& handles) {
   try {
@@ -158,11 +170,9 @@ void measure_bad_handles(Figures& figures) {
   figures["empty_region_rejected_in_line"] = line("z>110%", "0.5", "1");
 }
 
-constexpr Case cases[] = {{"C1", measure_rest},
-                          {"C2", measure_rigid_motions},
-                          {"C3", measure_twist},
-                          {"C7", measure_few_handles},
-                          {"C17", measure_bad_handles}};
+constexpr Case cases[] = {{"C1", measure_rest},        {"C2", measure_rigid_motions},
+                          {"C3", measure_twist},       {"C6", measure_two_targets},
+                          {"C7", measure_few_handles}, {"C17", measure_bad_handles}};
 
 }  // namespace
 

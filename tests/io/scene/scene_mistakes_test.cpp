@@ -121,11 +121,10 @@ TEST(SceneMistakes, InPoses) {
        "pose.handles is a map, must be a "
        "list"},
       {"shape: {mesh: a}\npose:", "2:1", "pose has no value, must be a map"},
-      {pose + "hard_handles: true", "4:17", "pose.hard_handles: true is not available yet"},
+      {pose + "hard_handles: true\n  solver: trust_region", "4:17", "allowed: with lbfgs"},
       {pose + "hard_handles: yes", "4:17", "'yes'; allowed: true, false"},
       {pose + "hard_handles: True", "4:17", "'True'; allowed: true, false; did you mean 'true'?"},
       {pose + "hard_handles: \"true\"", "4:17", "allowed: true, false"},
-      {pose + "solver: nlopt", "4:11", "pose.solver: nlopt is not available yet"},
       {pose + "solver: lbfg", "4:11", "allowed: lbfgs, trust_region, nlopt; did you mean 'lbfgs'?"},
       {pose + "region: y<1", "4:3", "pose.region is not available yet"},
       {pose + "weights: {rigidity: 0}", "4:23", "pose.weights.rigidity = 0, must be > 0"},

@@ -81,6 +81,35 @@ TEST(Pose, MeetsItsHandlesAndKeepsTheMesh) {
   EXPECT_EQ(result.mesh.positions.rows(), bar.positions.rows());
 }
 
+TEST(Pose, HardHandlesAreMetExactly) {
+  const std::string handles =
+      "  hard_handles: true\n  handles:\n    - fix: z<10%\n"
+      "    - {move: z>90%, by: [5%, 0, -2%], turn: {axis: [0, 1, 0], degrees: 40}}\n";
+  const Mesh bar = make_quad_bar({0.25, 0.25, 1}, {4, 4, 16});
+  const PoseResult hard = pose(bar, scene_with(handles));
+  EXPECT_EQ(hard.report.status, Status::ok);
+  EXPECT_LT(hard.handle_max_error, 1e-9);
+  EXPECT_GT(hard.min_det_F, 0.1);
+  const PoseResult check = pose(bar, scene_with("  solver: nlopt\n" + handles, 60));
+  EXPECT_LT(check.handle_max_error, 1e-7);
+  EXPECT_NEAR(total_energy(check), total_energy(pose(bar, scene_with(handles, 60))),
+              1e-3 * total_energy(check));
+}
+
+TEST(Pose, HardHandlesThatContradictEachOtherAreSaidSo) {
+  const PoseResult result = pose(
+      make_quad_bar({0.25, 0.25, 1}, {4, 4, 16}),
+      scene_with("  hard_handles: true\n  handles:\n    - fix: z<10%\n"
+                 "    - {move: z>90%, by: [5%, 0, 0]}\n    - {move: z>80%, by: [0, 5%, 0]}\n"));
+  EXPECT_EQ(result.report.status, Status::degraded);
+  const auto miss = std::find_if(result.report.reasons.begin(), result.report.reasons.end(),
+                                 [](const Reason& r) { return r.code == ReasonCode::handle_miss; });
+  ASSERT_NE(miss, result.report.reasons.end());
+  EXPECT_NE(miss->detail.find("cannot meet all"), std::string::npos);
+  EXPECT_LT(result.handle_max_error, 0.1);
+  EXPECT_TRUE(result.mesh.positions.allFinite());
+}
+
 TEST(Pose, IsTheSameForEveryNumberOfThreads) {
   const auto positions = [](int threads) {
     const ThreadLimit limit(threads);

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/field/samples.h"
+#include "solver/minimize/preconditioner.h"
+
+namespace supple {
+
+/// Samples of the field that shall be at given places exactly: Φ u = b, the same rows for x, y, z.
+///
+/// Rank-revealing: of √W Φ = U Σ Vᵀ, with the samples' weights W, the displacements along the
+/// columns of V with a σ above rounding are tied to Σ⁻¹ Uᵀ √W b. Rows that contradict each other
+/// are met in the least squares, along the directions of great σ alone: along others that would
+/// ask for wild displacements. The preconditioned unknowns y (Preconditioner) that leave the tied
+/// directions alone are those across an orthonormal basis Q.
+class SUPPLE_API HardConstraints {
+ public:
+  /// `weights` ω_k > 0 of the samples; `targets` [m] n×3: how far they will be led at last.
+  HardConstraints(const Samples& samples, const Eigen::VectorXd& weights, const Points& targets,
+                  const Preconditioner& preconditioner);
+
+  /// Takes u [N×3] to the displacements that meet the targets [m], n×3, nearest in the measure of
+  /// the preconditioner.
+  void meet(const Points& targets, Points& u) const;
+
+  /// Takes from y what moves the tied directions, in place.
+  void project(Points& y) const { y -= Q_ * (Q_.transpose() * y).eval(); }
+
+  const Eigen::MatrixXd& Q() const { return Q_; }  ///< N×tied
+  Index tied() const { return Q_.cols(); }
+  Index left_free() const { return left_free_; }  ///< directions, where targets contradict
+
+ private:
+  Eigen::MatrixXd rows_by_unknowns() const;
+
+  const Samples& samples_;
+  const Preconditioner& preconditioner_;
+  std::vector<int> particles_;   ///< that the samples feel
+  Eigen::MatrixXd V_;            ///< particles_ × tied
+  Eigen::MatrixXd from_places_;  ///< Σ⁻¹ Uᵀ √W, tied × n
+  Eigen::MatrixXd Q_, R_;        ///< of L⁻¹ P V
+  Index left_free_ = 0;
+};
+
+}  // namespace supple
