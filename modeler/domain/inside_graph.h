@@ -1,18 +1,14 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "modeler/domain/grid_cell.h"
 #include "modeler/domain/volume_samples.h"
 #include "solver/core/rest_shape.h"
 
 namespace supple {
-
-/// Place in a grid of cubes.
-using GridCell = std::array<int, 3>;
 
 /// What hangs together of a region within one cell of a grid: a gap cuts a cell into several,
 /// however thin it is (duplicated cells, Nesme et al. 2009).

@@ -1,29 +1,12 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <vector>
 
+#include "modeler/domain/point_reading.h"
 #include "modeler/domain/polygonize.h"
 #include "solver/core/rest_shape.h"
 
 namespace supple {
-
-/// What a point cloud gave as it was read as the surface of a solid.
-struct PointCloudReading {
-  std::vector<int> kept;           ///< points that are of the surface, ascending
-  Points normals;                  ///< unit length, outward, one for each kept point
-  Eigen::VectorXd areas;           ///< that each kept point stands for [m²]
-  long duplicates = 0;             ///< points left out because another has their place
-  long outliers = 0;               ///< points left out because they lie alone
-  long without_normal = 0;         ///< kept points that came without one, beside others with one
-  bool normals_estimated = false;  ///< of all, and turned by guess: most came without one
-  bool turned = false;             ///< the normals given look inwards: read the other way
-  long odd_normals = 0;            ///< that look against those about them: read as if turned
-  double covered = 0;              ///< share of the boundary that lies near points
-
-  std::vector<std::string> notes() const;  ///< a sentence each, for the user
-};
 
 /// The inside of a surface that is known by points. Near the points its boundary is the zero set
 /// of a partition of unity (Ohtake et al. 2003); elsewhere it goes where the winding number of the
