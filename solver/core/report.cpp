@@ -17,13 +17,14 @@ EnumNames<Status> enum_names(Status) {
 }
 
 EnumNames<ReasonCode> enum_names(ReasonCode) {
-  static constexpr std::array<std::pair<ReasonCode, std::string_view>, 10> names{{
+  static constexpr std::array<std::pair<ReasonCode, std::string_view>, 11> names{{
       {ReasonCode::inverted, "inverted"},
       {ReasonCode::handle_miss, "handle_miss"},
       {ReasonCode::uncovered, "uncovered"},
       {ReasonCode::rank_lost, "rank_lost"},
       {ReasonCode::max_iterations, "max_iterations"},
       {ReasonCode::not_converged, "not_converged"},
+      {ReasonCode::out_of_time, "out_of_time"},
       {ReasonCode::turn_lost, "turn_lost"},
       {ReasonCode::not_finite, "not_finite"},
       {ReasonCode::thin, "thin"},
@@ -33,13 +34,14 @@ EnumNames<ReasonCode> enum_names(ReasonCode) {
 }
 
 std::span<const ReasonLimit> reason_limits() {
-  static constexpr std::array<ReasonLimit, 10> limits{{
+  static constexpr std::array<ReasonLimit, 11> limits{{
       {ReasonCode::inverted, 0.0, "det F at or below this"},
       {ReasonCode::handle_miss, 0.01, "a handle sample's miss over the bounding-box diagonal"},
       {ReasonCode::uncovered, 0.0, "number of points outside all supports"},
       {ReasonCode::rank_lost, 0.01, "share of points whose neighbours do not span the basis"},
       {ReasonCode::max_iterations, 0.0, "solves stopped by the iteration limit"},
       {ReasonCode::not_converged, 0.0, "solves that the minimiser gave up"},
+      {ReasonCode::out_of_time, 0.0, "solves stopped because the time was over"},
       {ReasonCode::turn_lost, 0.2, "share of the energy lost in one step of the handles' way"},
       {ReasonCode::not_finite, 0.0, "number of values that are not finite"},
       {ReasonCode::thin, 0.05, "share of the surface further from all particles than it should"},

@@ -19,6 +19,7 @@ enum class ReasonCode {
   rank_lost,       ///< a point's neighbours do not span the basis
   max_iterations,  ///< the minimiser stopped before it converged
   not_converged,   ///< the minimiser gave up before it converged
+  out_of_time,     ///< the minimiser stopped because its time was over
   turn_lost,       ///< the shape fell back from a turn on the handles' way
   not_finite,      ///< a number became NaN or infinite
   thin,            ///< a part is thinner than the particles can follow

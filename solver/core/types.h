@@ -11,6 +11,15 @@ using Mat3 = Eigen::Matrix3d;
 /// One point, vector or displacement a row, n×3.
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
+/// As Points, with a zero behind each: a row fills one vector register.
+using PaddedPoints = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
+
+inline PaddedPoints padded(const Points& points) {
+  PaddedPoints out = PaddedPoints::Zero(points.rows(), 4);
+  out.leftCols<3>() = points;
+  return out;
+}
+
 /// Three vertex indices a row, n×3, counter-clockwise seen from outside.
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
 

@@ -1,59 +1,100 @@
 #include "solver/energy/energy_sum.h"
 
+#include <optional>
+
 #include "solver/core/check.h"
 
 namespace supple {
 namespace {
 
-/// ∂/∂u_j of a function with derivative `by_F` at sample k: by_F·∇φ_j.
-void scatter_gradient(const Samples& samples, Index k, const Mat3& by_F, Points& gradient) {
-  for (int at = samples.row_begin(k); at < samples.row_end(k); ++at)
-    gradient.row(samples.particles[static_cast<std::size_t>(at)]) +=
-        (by_F * samples.gradients[static_cast<std::size_t>(at)]).transpose();
-}
+/// Of a displacement or its derivative, a register.
+using Padded = Eigen::Vector4d;
 
-/// The same for a function of f: by_f·φ_j.
-void scatter_position(const Samples& samples, Index k, const Vec3& by_f, Points& gradient) {
-  for (int at = samples.row_begin(k); at < samples.row_end(k); ++at)
-    gradient.row(samples.particles[static_cast<std::size_t>(at)]) +=
-        samples.values[static_cast<std::size_t>(at)] * by_f.transpose();
-}
+/// Walks the samples with a short span along with the others, which come in the same order.
+class Completions {
+ public:
+  explicit Completions(const Samples& samples) : next_(samples.short_spans.begin()) {
+    end_ = samples.short_spans.end();
+  }
 
-double evaluate_group(const EnergyGroup& group, const Points& u, Points* gradient) {
+  /// Of sample k, greater than all before.
+  std::optional<Completion> at(Index k, const Mat3& plain) {
+    if (next_ == end_ || next_->sample != k) return std::nullopt;
+    const Span& span = (next_++)->span;
+    return Completion(plain - span.missing(), span);
+  }
+
+ private:
+  std::vector<Samples::ShortSpan>::const_iterator next_, end_;
+};
+
+/// Σ_terms λ ω |r|² at one sample, and its derivative.
+double add_terms(const EnergyGroup& group, const LocalField& at, LocalDerivative& derivative) {
   double value = 0;
-  LocalResidual local;
-  for (Index k = 0; k < group.samples->size(); ++k) {
-    LocalField at;
+  for (const EnergyGroup::Term& term : group.terms)
+    value += term.energy->add_square(at, term.weight * group.sample_weights[at.sample], derivative);
+  return value;
+}
+
+double evaluate_positions(const EnergyGroup& group, const PaddedPoints& u, PaddedPoints* gradient) {
+  const Samples& samples = *group.samples;
+  double value = 0;
+  LocalField at;
+  for (Index k = 0; k < samples.size(); ++k) {
+    const int begin = samples.row_begin(k), end = samples.row_end(k);
+    const int* particles = samples.particles.data();
+    const double* phi = samples.values.data();
+    Padded sum = Padded::Zero();
+    for (int e = begin; e < end; ++e) sum += phi[e] * u.row(particles[e]).transpose();
     at.sample = k;
-    std::optional<Completion> completion;
-    if (group.argument == Energy::Argument::position) {
-      at.f = group.samples->position(k, u);
-    } else {
-      at.F = group.samples->plain_gradient(k, u);
-      completion = group.samples->completion(k, at.F);
-      if (completion) at.F = completion->F();
-    }
-    Eigen::Matrix<double, 9, 1> derivative = Eigen::Matrix<double, 9, 1>::Zero();
-    for (const EnergyGroup::Term& term : group.terms) {
-      term.energy->evaluate(at, local);
-      const double weight = term.weight * group.sample_weights[k];
-      for (int row = 0; row < term.energy->rows(); ++row) {
-        value += weight * local.r[row] * local.r[row];
-        if (gradient)
-          derivative += (2 * weight * local.r[row]) * local.jacobian.row(row).transpose();
-      }
-    }
+    at.f = samples.points.row(k).transpose() + sum.head<3>();
+    LocalDerivative derivative;
+    value += add_terms(group, at, derivative);
     if (!gradient) continue;
-    if (group.argument == Energy::Argument::position) {
-      scatter_position(*group.samples, k, derivative.head<3>(), *gradient);
-    } else {
-      const Mat3 by_F =
-          Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(derivative.data());
-      scatter_gradient(*group.samples, k, completion ? completion->by_carried(by_F) : by_F,
-                       *gradient);
-    }
+    const Padded by_f(derivative.by_f[0], derivative.by_f[1], derivative.by_f[2], 0);
+    for (int e = begin; e < end; ++e) gradient->row(particles[e]) += phi[e] * by_f.transpose();
   }
   return value;
+}
+
+double evaluate_gradients(const EnergyGroup& group, const PaddedPoints& u, PaddedPoints* gradient) {
+  const Samples& samples = *group.samples;
+  double value = 0;
+  Completions completions(samples);
+  LocalField at;
+  for (Index k = 0; k < samples.size(); ++k) {
+    const int begin = samples.row_begin(k), end = samples.row_end(k);
+    const int* particles = samples.particles.data();
+    const Vec3* slopes = samples.gradients.data();
+    Padded x = Padded::UnitX(), y = Padded::UnitY(), z = Padded::UnitZ();  // columns of F
+    for (int e = begin; e < end; ++e) {
+      const Padded u_j = u.row(particles[e]);
+      x += slopes[e][0] * u_j;
+      y += slopes[e][1] * u_j;
+      z += slopes[e][2] * u_j;
+    }
+    at.sample = k;
+    at.F << x.head<3>(), y.head<3>(), z.head<3>();
+    const std::optional<Completion> completion = completions.at(k, at.F);
+    if (completion) at.F = completion->F();
+    LocalDerivative derivative;
+    value += add_terms(group, at, derivative);
+    if (!gradient) continue;
+    if (completion) derivative.by_F = completion->by_carried(derivative.by_F);
+    x.head<3>() = derivative.by_F.col(0);
+    y.head<3>() = derivative.by_F.col(1);
+    z.head<3>() = derivative.by_F.col(2);
+    x[3] = y[3] = z[3] = 0;
+    for (int e = begin; e < end; ++e)
+      gradient->row(particles[e]) +=
+          (slopes[e][0] * x + slopes[e][1] * y + slopes[e][2] * z).transpose();
+  }
+  return value;
+}
+
+double evaluate_group(const EnergyGroup& group, const PaddedPoints& u, PaddedPoints* gradient) {
+  return group.argument == Energy::Argument::position ? evaluate_positions(group, u, gradient)
+                                                      : evaluate_gradients(group, u, gradient);
 }
 
 }  // namespace
@@ -74,10 +115,18 @@ void EnergySum::add(const Energy& energy, const Samples& samples,
   groups_.push_back({&samples, sample_weights, energy.argument(), {{&energy, weight}}});
 }
 
-double EnergySum::evaluate(const Points& u, Points* gradient) const {
-  if (gradient) gradient->setZero(particles_, 3);
+double EnergySum::evaluate_padded(const PaddedPoints& u, PaddedPoints* gradient) const {
+  if (gradient) gradient->setZero(particles_, 4);
   double value = 0;
   for (const EnergyGroup& group : groups_) value += evaluate_group(group, u, gradient);
+  return value;
+}
+
+double EnergySum::evaluate(const Points& u, Points* gradient) const {
+  if (!gradient) return evaluate_padded(padded(u));
+  PaddedPoints by_u;
+  const double value = evaluate_padded(padded(u), &by_u);
+  *gradient = by_u.leftCols<3>();
   return value;
 }
 
@@ -87,7 +136,8 @@ std::vector<std::pair<std::string, double>> EnergySum::values(const Points& u) c
     for (const EnergyGroup::Term& term : group.terms) {
       EnergyGroup alone = group;
       alone.terms = {term};
-      values.emplace_back(std::string(term.energy->name()), evaluate_group(alone, u, nullptr));
+      values.emplace_back(std::string(term.energy->name()),
+                          evaluate_group(alone, padded(u), nullptr));
     }
   return values;
 }

@@ -33,6 +33,7 @@ class SUPPLE_API EnergySum {
 
   /// E(u), and ∂E/∂u [N×3] where `gradient` is given. `u` [m] N×3.
   double evaluate(const Points& u, Points* gradient = nullptr) const;
+  double evaluate_padded(const PaddedPoints& u, PaddedPoints* gradient = nullptr) const;
 
   /// Each term's λ Σ ω |r|² by its name.
   std::vector<std::pair<std::string, double>> values(const Points& u) const;

@@ -16,6 +16,8 @@ class SUPPLE_API HandleEnergy final : public Energy {
   int rows() const override { return 3; }
   double stiffness() const override { return 2; }
   void evaluate(const LocalField& at, LocalResidual& out) const override;
+  double add_square(const LocalField& at, double weight,
+                    LocalDerivative& derivative) const override;
 
   void set_targets(const Points& targets) { targets_ = targets; }
 

@@ -25,4 +25,11 @@ void NearestRotationEnergy::turn_to(const Samples& samples, const Points& u) {
   }
 }
 
+double NearestRotationEnergy::add_square(const LocalField& at, double weight,
+                                         LocalDerivative& derivative) const {
+  const Mat3 r = at.F - rotations_[static_cast<std::size_t>(at.sample)];
+  derivative.by_F += 2 * weight * r;
+  return weight * r.squaredNorm();
+}
+
 }  // namespace supple

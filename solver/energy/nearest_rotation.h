@@ -20,6 +20,8 @@ class SUPPLE_API NearestRotationEnergy final : public Energy {
   int rows() const override { return 9; }
   double stiffness() const override { return 4; }  // 2 where no F is completed by a rotation
   void evaluate(const LocalField& at, LocalResidual& out) const override;
+  double add_square(const LocalField& at, double weight,
+                    LocalDerivative& derivative) const override;
 
   /// R_k ← the rotation nearest to F_k.
   void turn_to(const Samples& samples, const Points& u);

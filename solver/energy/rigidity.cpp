@@ -18,4 +18,11 @@ void RigidityEnergy::evaluate(const LocalField& at, LocalResidual& out) const {
     }
 }
 
+double RigidityEnergy::add_square(const LocalField& at, double weight,
+                                  LocalDerivative& derivative) const {
+  const Mat3 r = at.F.transpose() * at.F - Mat3::Identity();
+  derivative.by_F += 4 * weight * (at.F * r);
+  return weight * r.squaredNorm();
+}
+
 }  // namespace supple

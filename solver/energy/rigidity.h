@@ -13,6 +13,8 @@ class SUPPLE_API RigidityEnergy final : public Energy {
   int rows() const override { return 6; }
   double stiffness() const override { return 8; }
   void evaluate(const LocalField& at, LocalResidual& out) const override;
+  double add_square(const LocalField& at, double weight,
+                    LocalDerivative& derivative) const override;
 };
 
 }  // namespace supple

@@ -12,4 +12,16 @@ void VolumeEnergy::evaluate(const LocalField& at, LocalResidual& out) const {
   out.jacobian.row(0) << cofactor_a.transpose(), c.cross(a).transpose(), a.cross(b).transpose();
 }
 
+double VolumeEnergy::add_square(const LocalField& at, double weight,
+                                LocalDerivative& derivative) const {
+  // The cofactor's columns are cross products of F's columns.
+  const Vec3 a = at.F.col(0), b = at.F.col(1), c = at.F.col(2);
+  const Vec3 cofactor_a = b.cross(c);
+  const double r = a.dot(cofactor_a) - 1;
+  derivative.by_F.col(0) += 2 * weight * r * cofactor_a;
+  derivative.by_F.col(1) += 2 * weight * r * c.cross(a);
+  derivative.by_F.col(2) += 2 * weight * r * a.cross(b);
+  return weight * r * r;
+}
+
 }  // namespace supple

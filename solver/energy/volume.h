@@ -12,6 +12,8 @@ class SUPPLE_API VolumeEnergy final : public Energy {
   int rows() const override { return 1; }
   double stiffness() const override { return 2; }
   void evaluate(const LocalField& at, LocalResidual& out) const override;
+  double add_square(const LocalField& at, double weight,
+                    LocalDerivative& derivative) const override;
 };
 
 }  // namespace supple

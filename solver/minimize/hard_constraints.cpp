@@ -83,6 +83,17 @@ Eigen::MatrixXd HardConstraints::rows_by_unknowns() const {
   return rows;
 }
 
+void HardConstraints::project(PaddedPoints& y, PaddedPoints& along) const {
+  along.setZero(tied(), 4);
+  for (Index i = 0; i < Q_.rows(); ++i)
+    for (Index j = 0; j < Q_.cols(); ++j) along.row(j) += Q_(i, j) * y.row(i);
+  for (Index i = 0; i < Q_.rows(); ++i) {
+    Eigen::RowVector4d sum = Eigen::RowVector4d::Zero();
+    for (Index j = 0; j < Q_.cols(); ++j) sum += Q_(i, j) * along.row(j);
+    y.row(i) -= sum;
+  }
+}
+
 void HardConstraints::meet(const Points& targets, Points& u) const {
   const Points wanted = from_places_ * (targets - samples_.points);
   const Points missing = wanted - V_.transpose() * u(particles_, Eigen::all);

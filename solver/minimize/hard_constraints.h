@@ -16,6 +16,8 @@ namespace supple {
 /// directions alone are those across an orthonormal basis Q.
 class SUPPLE_API HardConstraints {
  public:
+  using Basis = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
   /// `weights` ω_k > 0 of the samples; `targets` [m] n×3: how far they will be led at last.
   HardConstraints(const Samples& samples, const Eigen::VectorXd& weights, const Points& targets,
                   const Preconditioner& preconditioner);
@@ -24,10 +26,10 @@ class SUPPLE_API HardConstraints {
   /// the preconditioner.
   void meet(const Points& targets, Points& u) const;
 
-  /// Takes from y what moves the tied directions, in place.
-  void project(Points& y) const { y -= Q_ * (Q_.transpose() * y).eval(); }
+  /// Takes from y [N×4] what moves the tied directions, in place; `along` is scratch.
+  void project(PaddedPoints& y, PaddedPoints& along) const;
 
-  const Eigen::MatrixXd& Q() const { return Q_; }  ///< N×tied
+  const Basis& Q() const { return Q_; }  ///< N×tied
   Index tied() const { return Q_.cols(); }
   Index left_free() const { return left_free_; }  ///< directions, where targets contradict
 
@@ -39,7 +41,8 @@ class SUPPLE_API HardConstraints {
   std::vector<int> particles_;   ///< that the samples feel
   Eigen::MatrixXd V_;            ///< particles_ × tied
   Eigen::MatrixXd from_places_;  ///< Σ⁻¹ Uᵀ √W, tied × n
-  Eigen::MatrixXd Q_, R_;        ///< of L⁻¹ P V
+  Basis Q_;                      ///< of L⁻¹ P V
+  Eigen::MatrixXd R_;
   Index left_free_ = 0;
 };
 

@@ -10,20 +10,21 @@
 namespace supple {
 namespace {
 
-bool gave_up(const Report& report) {
-  return std::any_of(report.reasons.begin(), report.reasons.end(),
-                     [](const Reason& reason) { return reason.code == ReasonCode::not_converged; });
-}
-
 /// L-BFGS; where its line search gives up, the trust region goes on from there, and says so.
 Report run_lbfgs(const EnergySum& energy, const Preconditioner& preconditioner,
                  const MinimizeOptions& options, const HardConstraints* constraints, Points& u) {
-  const Report lbfgs = minimize_lbfgs(energy, preconditioner, options, constraints, u);
-  if (!gave_up(lbfgs) || constraints || !u.allFinite()) return lbfgs;
-  Report report = minimize_trust_region(energy, options, u);
-  report.iterations += lbfgs.iterations;
-  report.notes.push_back("the line search gave up; the trust region finished the solve");
-  return report;
+  PaddedPoints unknowns = padded(u);
+  const Lbfgs::Result result =
+      Lbfgs().minimize(energy, preconditioner, options, constraints, unknowns);
+  u = unknowns.leftCols<3>();
+  if (result.stop == Lbfgs::Stop::stuck && !constraints) {
+    Report report = minimize_trust_region(energy, options, u);
+    report.iterations += result.iterations;
+    report.notes.push_back("the line search gave up; the trust region finished the solve");
+    note_not_finite(result.not_finite, result.evaluations, report);
+    return report;
+  }
+  return report_of(result);
 }
 
 Report run(const EnergySum& energy, const Preconditioner& preconditioner,
@@ -41,6 +42,29 @@ Report run(const EnergySum& energy, const Preconditioner& preconditioner,
 }
 
 }  // namespace
+
+Report report_of(const Lbfgs::Result& result) {
+  Report report;
+  report.iterations = result.iterations;
+  note_not_finite(result.not_finite, result.evaluations, report);
+  switch (result.stop) {
+    case Lbfgs::Stop::converged:
+      break;
+    case Lbfgs::Stop::max_iterations:
+      report.degrade({ReasonCode::max_iterations, 1, static_cast<double>(result.iterations),
+                      fmt::format("stopped after {} iterations", result.iterations)});
+      break;
+    case Lbfgs::Stop::out_of_time:
+      report.degrade({ReasonCode::out_of_time, 1, static_cast<double>(result.iterations),
+                      fmt::format("out of time after {} iterations", result.iterations)});
+      break;
+    case Lbfgs::Stop::stuck:
+      report.degrade(
+          {ReasonCode::not_converged, 1, result.energy, "the line search finds no lower energy"});
+      break;
+  }
+  return report;
+}
 
 void note_not_finite(int count, int evaluations, Report& report) {
   if (count > 0)

@@ -3,6 +3,7 @@
 #include "solver/core/report.h"
 #include "solver/energy/energy_sum.h"
 #include "solver/minimize/hard_constraints.h"
+#include "solver/minimize/lbfgs.h"
 #include "solver/minimize/minimize_options.h"
 #include "solver/minimize/preconditioner.h"
 
@@ -17,16 +18,15 @@ SUPPLE_API Report minimize(const EnergySum& energy, const Preconditioner& precon
                            const MinimizeOptions& options, Points& u,
                            const HardConstraints* constraints = nullptr);
 
-/// The parts of minimize(), one a method: L-BFGS of Ceres' GradientProblemSolver on the
-/// preconditioned unknowns; Ceres' Levenberg–Marquardt with analytic Jacobians, a residual block
-/// a sample, sparse normal Cholesky; NLopt's SLSQP, for a hundred particles or so.
-Report minimize_lbfgs(const EnergySum& energy, const Preconditioner& preconditioner,
-                      const MinimizeOptions& options, const HardConstraints* constraints,
-                      Points& u);
+/// The other methods of minimize(): Ceres' Levenberg–Marquardt with analytic Jacobians, a residual
+/// block a sample, sparse normal Cholesky; NLopt's SLSQP, for a hundred particles or so.
 Report minimize_nlopt(const EnergySum& energy, const Preconditioner& preconditioner,
                       const MinimizeOptions& options, const HardConstraints* constraints,
                       Points& u);
 Report minimize_trust_region(const EnergySum& energy, const MinimizeOptions& options, Points& u);
+
+/// What an L-BFGS solve came to, in words.
+SUPPLE_API Report report_of(const Lbfgs::Result& result);
 
 /// Notes how often a minimiser met an energy that was not finite.
 void note_not_finite(int count, int evaluations, Report& report);

@@ -64,7 +64,7 @@ class Problem {
   static void tied(unsigned, double* result, unsigned unknowns, const double* y, double* gradient,
                    void* data) {
     const Problem& self = *static_cast<const Problem*>(data);
-    const Eigen::MatrixXd& Q = self.constraints_->Q();
+    const HardConstraints::Basis& Q = self.constraints_->Q();
     Eigen::Map<Points>(result, Q.cols(), 3) =
         Q.transpose() * Eigen::Map<const Points>(y, self.start_.rows(), 3);
     if (!gradient) return;

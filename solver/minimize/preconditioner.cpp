@@ -1,5 +1,6 @@
 #include "solver/minimize/preconditioner.h"
 
+#include <Eigen/SparseCholesky>
 #include <vector>
 
 #include "solver/core/check.h"
@@ -7,6 +8,7 @@
 namespace supple {
 namespace {
 
+using Sparse = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// Adds weight·(ρ_i·ρ_j) for every pair of particles in one sample's row.
@@ -22,7 +24,7 @@ void add_row(const Samples& samples, Index k, Energy::Argument argument, double 
     }
 }
 
-Eigen::SparseMatrix<double> proxy(const EnergySum& energy) {
+Sparse proxy(const EnergySum& energy) {
   const Index n = energy.particles();
   Triplets triplets;
   for (const EnergyGroup& group : energy.groups()) {
@@ -32,44 +34,75 @@ Eigen::SparseMatrix<double> proxy(const EnergySum& energy) {
     for (Index k = 0; k < group.samples->size(); ++k)
       add_row(*group.samples, k, group.argument, stiffness * group.sample_weights[k], triplets);
   }
-  Eigen::SparseMatrix<double> C(n, n);
+  Sparse C(n, n);
   C.setFromTriplets(triplets.begin(), triplets.end());
   // Without enough handles C has null directions; ε keeps them finite and far from the rest.
   const double mean = C.diagonal().sum() / static_cast<double>(n);
-  Eigen::SparseMatrix<double> shift(n, n);
+  Sparse shift(n, n);
   shift.setIdentity();
   return C + (1e-8 * mean + 1e-300) * shift;
 }
 
 }  // namespace
 
-Preconditioner::Preconditioner(const EnergySum& energy) : particles_(energy.particles()) {
-  const Sparse C = proxy(energy);
-  if (energy.particles() <= most_dense) {
-    dense_.emplace(Eigen::MatrixXd(C));
-    SUPPLE_CHECK(dense_->info() == Eigen::Success, "C is positive definite");
-  } else {
-    sparse_.compute(C);
-    SUPPLE_CHECK(sparse_.info() == Eigen::Success, "C is positive definite");
+Preconditioner::Preconditioner(const EnergySum& energy) {
+  const Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::AMDOrdering<int>> factor(proxy(energy));
+  SUPPLE_CHECK(factor.info() == Eigen::Success, "C is positive definite");
+  const Sparse L = factor.matrixL();
+  order_.resize(static_cast<std::size_t>(L.cols()));
+  for (Index particle = 0; particle < L.cols(); ++particle)
+    order_[static_cast<std::size_t>(factor.permutationP().indices()[particle])] =
+        static_cast<int>(particle);
+  entries_.reserve(static_cast<std::size_t>(L.nonZeros() - L.cols()));
+  for (Index j = 0; j < L.cols(); ++j) {
+    Sparse::InnerIterator at(L, j);  // the diagonal comes first
+    by_diagonal_.push_back(1 / at.value());
+    for (++at; at; ++at)
+      entries_.push_back(
+          {at.value(), static_cast<int>(at.row()), order_[static_cast<std::size_t>(at.row())]});
+    starts_.push_back(static_cast<int>(entries_.size()));
+  }
+}
+
+void Preconditioner::to_displacements(const PaddedPoints& y, PaddedPoints& u) const {
+  u.resize(y.rows(), 4);
+  for (std::size_t j = order_.size(); j-- > 0;) {
+    Eigen::Vector4d sum = y.row(static_cast<Index>(j)), other = Eigen::Vector4d::Zero();
+    const Entry *e = entries_.data() + starts_[j], *end = entries_.data() + starts_[j + 1];
+    // Two sums, so that one need not wait for the other.
+    for (; e + 1 < end; e += 2) {
+      sum -= e[0].value * u.row(e[0].particle).transpose();
+      other -= e[1].value * u.row(e[1].particle).transpose();
+    }
+    if (e < end) sum -= e->value * u.row(e->particle).transpose();
+    u.row(order_[j]) = by_diagonal_[j] * (sum + other).transpose();
+  }
+}
+
+void Preconditioner::to_gradient(const PaddedPoints& by_u, PaddedPoints& by_y) const {
+  by_y.resize(by_u.rows(), 4);
+  for (std::size_t j = 0; j < order_.size(); ++j)
+    by_y.row(static_cast<Index>(j)) = by_u.row(order_[j]);
+  for (std::size_t j = 0; j < order_.size(); ++j) {
+    const Eigen::Vector4d here = by_diagonal_[j] * by_y.row(static_cast<Index>(j)).transpose();
+    by_y.row(static_cast<Index>(j)) = here;
+    for (int at = starts_[j]; at < starts_[j + 1]; ++at) {
+      const Entry& entry = entries_[static_cast<std::size_t>(at)];
+      by_y.row(entry.row) -= entry.value * here.transpose();
+    }
   }
 }
 
 void Preconditioner::to_displacements(Points& y) const {
-  if (dense_) {
-    dense_->matrixU().solveInPlace(y);
-    return;
-  }
-  sparse_.matrixU().solveInPlace(y);
-  y = sparse_.permutationPinv() * y;
+  PaddedPoints u;
+  to_displacements(padded(y), u);
+  y = u.leftCols<3>();
 }
 
 void Preconditioner::to_gradient(Points& gradient) const {
-  if (dense_) {
-    dense_->matrixL().solveInPlace(gradient);
-    return;
-  }
-  gradient = sparse_.permutationP() * gradient;
-  sparse_.matrixL().solveInPlace(gradient);
+  PaddedPoints by_y;
+  to_gradient(padded(gradient), by_y);
+  gradient = by_y.leftCols<3>();
 }
 
 }  // namespace supple

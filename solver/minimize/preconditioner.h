@@ -1,8 +1,6 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
-#include <optional>
+#include <vector>
 
 #include "solver/energy/energy_sum.h"
 
@@ -19,22 +17,27 @@ class SUPPLE_API Preconditioner {
  public:
   explicit Preconditioner(const EnergySum& energy);
 
-  Index particles() const { return particles_; }
+  Index particles() const { return static_cast<Index>(order_.size()); }
 
-  /// Pᵀ L⁻ᵀ y, in place on y [N×3].
+  /// u = Pᵀ L⁻ᵀ y; N×4, not the same as y.
+  void to_displacements(const PaddedPoints& y, PaddedPoints& u) const;
+  /// ∂E/∂y = L⁻¹ P ∂E/∂u; N×4, not the same as by_u.
+  void to_gradient(const PaddedPoints& by_u, PaddedPoints& by_y) const;
+
+  /// The same in place, on N×3.
   void to_displacements(Points& y) const;
-  /// ∂E/∂y = L⁻¹ P ∂E/∂u, in place.
   void to_gradient(Points& gradient) const;
 
  private:
-  using Sparse = Eigen::SparseMatrix<double>;
+  struct Entry {
+    double value;
+    int row, particle;  ///< in L, and the particle that stands there
+  };
 
-  /// Above this size the sparse factor is the faster one.
-  static constexpr Index most_dense = 400;
-
-  Index particles_;
-  std::optional<Eigen::LLT<Eigen::MatrixXd>> dense_;
-  Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::AMDOrdering<int>> sparse_;
+  std::vector<int> order_;           ///< the particle in each row of L
+  std::vector<double> by_diagonal_;  ///< 1 / L_jj
+  std::vector<int> starts_{0};       ///< N+1 offsets into entries_, by columns of L
+  std::vector<Entry> entries_;       ///< below the diagonal
 };
 
 }  // namespace supple
