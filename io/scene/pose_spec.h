@@ -71,6 +71,25 @@ struct PoseWeights {
   }
 };
 
+/// A part of the shape that resists bending and squeezing more, or less, than the rest.
+struct StiffnessSpec {
+  Place place;
+  Selection select;  ///< speaks of the inside too
+  double times = 1;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("select", self.select, {.doc = "part of the shape, with its inside; needed"});
+    visit(
+        "times", self.times,
+        {.doc = "how many times as stiff it is; needed. Where parts overlap, the factors multiply",
+         .unit = factor_unit,
+         .min = 0,
+         .max = 1e6,
+         .exclusive_min = true});
+  }
+};
+
 enum class SurfaceKind { field, particle_gradients };
 EnumNames<SurfaceKind> enum_names(SurfaceKind);
 
@@ -79,6 +98,7 @@ struct PoseSpec {
   Place place;
   std::vector<HandleSpec> handles;
   PoseWeights weights;
+  std::vector<StiffnessSpec> stiffness;
   MinimizerKind solver = MinimizerKind::lbfgs;
   bool hard_handles = false;
   int max_iterations = 2000;
@@ -91,6 +111,8 @@ struct PoseSpec {
   static void describe(Self& self, Visitor&& visit) {
     visit("handles", self.handles, {.doc = "parts of the surface that are fixed or moved"});
     visit("weights", self.weights, {.doc = "weights of the energies"});
+    visit("stiffness", self.stiffness,
+          {.doc = "parts whose rigidity and volume terms weigh more than the rest's"});
     visit("solver", self.solver, {.doc = "minimiser"});
     visit("hard_handles", self.hard_handles,
           {.doc = "true: handles are met exactly, as far as the particles can and they do not "

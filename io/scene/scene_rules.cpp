@@ -18,7 +18,7 @@ std::span<const std::string_view> later_keys(const ShapeSpec&) {
 }
 
 std::span<const std::string_view> later_keys(const PoseSpec&) {
-  static constexpr std::array<std::string_view, 2> keys{"region", "stiffness"};
+  static constexpr std::array<std::string_view, 1> keys{"region"};
   return keys;
 }
 
@@ -66,6 +66,12 @@ void check_rules(const TurnSpec& turn, const SceneItem& item) {
   if (turn.axis.squaredNorm() == 0)
     complain(find_item(item, "axis")->place,
              fmt::format("{}.axis = 0, must have a length", item.path));
+}
+
+void check_rules(const StiffnessSpec&, const SceneItem& item) {
+  for (const std::string_view key : {"select", "times"})
+    if (!find_item(item, key))
+      complain(item.place, fmt::format("{}.{} is missing", item.path, key));
 }
 
 }  // namespace supple

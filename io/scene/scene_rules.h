@@ -23,6 +23,7 @@ void check_rules(const ShapeSpec& shape, const SceneItem& item);
 void check_rules(const PoseSpec& pose, const SceneItem& item);
 void check_rules(const HandleSpec& handle, const SceneItem& item);
 void check_rules(const TurnSpec& turn, const SceneItem& item);
+void check_rules(const StiffnessSpec& stiffness, const SceneItem& item);
 template <class T>
 void check_rules(const T&, const SceneItem&) {}
 

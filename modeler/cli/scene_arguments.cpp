@@ -61,6 +61,7 @@ void SceneArguments::declare(CommandLine& line) {
       "a mesh (OBJ, PLY, OFF, STL), a point cloud (PLY, XYZ, PWN, PCD), or a scene (.yaml)",
       [this](const std::string& value) { path_ = value; });
   handles_.declare(line);
+  parts_.declare(line);
   line.begin_group("Shape");
   declare_knobs<ShapeSpec>(line, "shape", "--");
   line.begin_group("Pose");
@@ -119,8 +120,9 @@ bool SceneArguments::is_scene_file() const {
 Scene SceneArguments::take() {
   Scene scene = read();
   std::vector<HandleSpec> handles = handles_.take();
-  if (handles.empty()) return scene;
-  if (!scene.pose) scene.pose.emplace();
+  if (handles.empty() && !parts_.given()) return scene;
+  if (!scene.pose) scene.pose.emplace().place = scene.shape.place;
+  parts_.give(*scene.pose);
   for (HandleSpec& handle : handles) scene.pose->handles.push_back(std::move(handle));
   return scene;
 }

@@ -7,6 +7,7 @@
 #include "io/scene/scene_reader.h"
 #include "modeler/cli/command_line.h"
 #include "modeler/cli/handle_arguments.h"
+#include "modeler/cli/part_arguments.h"
 
 namespace supple {
 
@@ -45,6 +46,7 @@ class SceneArguments {
 
   std::string path_;
   HandleArguments handles_;
+  PartArguments parts_;
   std::vector<Knob> knobs_;
 };
 

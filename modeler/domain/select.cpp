@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "io/scene/complaint.h"
+#include "modeler/domain/site_tree.h"
 #include "modeler/domain/vertex_list.h"
 
 namespace supple {
@@ -172,19 +173,40 @@ class Selector {
 
 }  // namespace
 
+std::vector<char> select_mask(const Selection& selection, const SelectionContext& context,
+                              const SurfaceSamples& samples) {
+  return Selector(context, samples).choose(selection);
+}
+
+SurfaceSamples stand_ins(const Points& points, const SurfaceSamples& surface) {
+  SurfaceSamples stand_ins;
+  stand_ins.positions = points;
+  const SiteTree tree(surface.positions);
+  for (Index i = 0; i < points.rows(); ++i) {
+    Index nearest = 0;
+    double squared_distance = 0;
+    tree.nearest(points.row(i).transpose(), {&nearest, 1}, {&squared_distance, 1});
+    stand_ins.triangles.push_back(surface.triangles[static_cast<std::size_t>(nearest)]);
+    stand_ins.vertices.push_back(surface.vertices[static_cast<std::size_t>(nearest)]);
+  }
+  return stand_ins;
+}
+
+void complain_of_nothing(const Selection& selection, const Box& box, std::string_view of) {
+  const Vec3 &a = box.lower, &b = box.upper;
+  complain(selection.place,
+           fmt::format("{} selects nothing of {}; its box goes from ({:.4g}, {:.4g}, {:.4g}) to "
+                       "({:.4g}, {:.4g}, {:.4g})",
+                       in_quotes(selection.text), of, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()));
+}
+
 std::vector<int> select(const Selection& selection, const SelectionContext& context,
                         const SurfaceSamples& samples) {
-  const Mask mask = Selector(context, samples).choose(selection);
+  const Mask mask = select_mask(selection, context, samples);
   std::vector<int> chosen;
   for (std::size_t i = 0; i < mask.size(); ++i)
     if (mask[i]) chosen.push_back(static_cast<int>(i));
-  if (chosen.empty()) {
-    const Vec3 &a = context.box.lower, &b = context.box.upper;
-    complain(selection.place,
-             fmt::format("{} selects nothing of the shape; its box goes from ({:.4g}, {:.4g}, "
-                         "{:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
-                         in_quotes(selection.text), a.x(), a.y(), a.z(), b.x(), b.y(), b.z()));
-  }
+  if (chosen.empty()) complain_of_nothing(selection, context.box, "the shape");
   return chosen;
 }
 

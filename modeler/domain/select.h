@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "io/mesh/mesh.h"
@@ -24,5 +25,17 @@ struct SelectionContext {
 /// UsageError with the bounding box and the selection's text where nothing is selected.
 std::vector<int> select(const Selection& selection, const SelectionContext& context,
                         const SurfaceSamples& samples);
+
+/// For each sample whether it is inside `selection`; none may be. Errors: as select().
+std::vector<char> select_mask(const Selection& selection, const SelectionContext& context,
+                              const SurfaceSamples& samples);
+
+/// Points anywhere in a shape as select_mask() takes them: half-spaces, boxes and spheres speak of
+/// the points, vertices and groups of the surface sample nearest to each. Areas are left out.
+SurfaceSamples stand_ins(const Points& points, const SurfaceSamples& surface);
+
+/// Throws UsageError: the selection holds nothing of what `of` names.
+[[noreturn]] void complain_of_nothing(const Selection& selection, const Box& box,
+                                      std::string_view of);
 
 }  // namespace supple

@@ -82,6 +82,21 @@ void add_energies(const PoseSpec& pose, std::vector<Effect>& effects) {
   effects.push_back(pose.weights.volume > 0 ? on("volume", volume) : off("volume", volume));
 }
 
+std::string listed(const std::vector<StiffnessSpec>& parts) {
+  std::string text;
+  for (const StiffnessSpec& part : parts)
+    text += fmt::format("{}{}: {} is {} times as stiff", text.empty() ? "" : "; ",
+                        part.place.line > 0 ? to_string(part.place) : "command line",
+                        part.select.text, part.times);
+  return text;
+}
+
+void add_stiffness(const PoseSpec& pose, std::vector<Effect>& effects) {
+  effects.push_back(pose.stiffness.empty()
+                        ? off("stiffness", "pose.stiffness is not given: one for all parts")
+                        : on("stiffness", listed(pose.stiffness)));
+}
+
 void add_substeps(const PoseSpec& pose, std::vector<Effect>& effects) {
   const auto mover = std::find_if(pose.handles.begin(), pose.handles.end(), moves);
   if (mover == pose.handles.end())
@@ -102,11 +117,13 @@ void add_hard_handles(const PoseSpec& pose, std::vector<Effect>& effects) {
 
 void add_solving(const PoseSpec& pose, std::vector<Effect>& effects) {
   if (pose.handles.empty()) {
-    for (const char* name : {"handles", "rigidity", "volume", "substeps", "hard_handles"})
+    for (const char* name :
+         {"handles", "rigidity", "volume", "stiffness", "substeps", "hard_handles"})
       effects.push_back(off(name, "the scene has no handles: the shape stays as it is"));
     return;
   }
   add_energies(pose, effects);
+  add_stiffness(pose, effects);
   add_substeps(pose, effects);
   add_hard_handles(pose, effects);
 }

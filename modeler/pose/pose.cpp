@@ -1,7 +1,5 @@
 #include "modeler/pose/pose.h"
 
-#include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -10,8 +8,10 @@
 #include "io/scene/complaint.h"
 #include "modeler/plan/plan.h"
 #include "modeler/pose/handles.h"
+#include "modeler/pose/pose_measures.h"
 #include "modeler/pose/pose_solver.h"
-#include "modeler/pose/solid.h"
+#include "modeler/pose/solid_field.h"
+#include "modeler/pose/stiffness.h"
 #include "modeler/surface/deform_mesh.h"
 #include "modeler/surface/fill_gaps.h"
 #include "solver/core/stopwatch.h"
@@ -48,31 +48,21 @@ class Stages {
   std::string name_;
 };
 
-/// The field over a solid's particles, its samples where energies are summed, and its surface.
-struct SolidField {
-  MovingLeastSquares<3> mls;
-  Quadrature points;
-  Samples quadrature;
-  SurfaceEmbedding surface;
-
-  SolidField(const Solid& solid, const ShapeSpec& shape, SurfaceKind surface_kind)
-      : mls(solid.particles().positions, solid.particles().supports,
-            {shape.basis, shape.kernel, shape.gradient}, solid.detours(),
-            solid.particles().stretches),
-        points(solid.quadrature(shape.quadrature)),
-        quadrature(sample_field(mls, points.points, SampleContent::values_and_gradients)),
-        surface(mls, quadrature, solid.inner_vertices(), surface_kind) {}
-  SolidField(const SolidField&) = delete;
-};
-
 /// How far apart handles are sampled, in spacings: hard ones shall be met between samples too.
 constexpr double handle_width = 0.5, hard_handle_width = 0.1;
 
-HandleSamples choose_handles(const Mesh& mesh, const Solid& solid, const Scene& scene) {
+/// The surface in the user's coordinates: selections speak of them.
+SurfaceSamples restored_surface(const Solid& solid) {
   SurfaceSamples samples = solid.surface();
   samples.positions = solid.restored(samples.positions);
+  return samples;
+}
+
+HandleSamples choose_handles(const SelectionContext& selection, const Solid& solid,
+                             const Scene& scene) {
+  const SurfaceSamples samples = restored_surface(solid);
   const HandleContext context{
-      {mesh, solid.triangulation(), solid.box(), scene.folder},
+      selection,
       samples,
       solid.surface(),
       solid.origin(),
@@ -97,9 +87,22 @@ void book_coupling(std::vector<Effect>& effects, const Solid& solid) {
     }
 }
 
+/// The parts' factors at the points where energies are summed; empty without such parts.
+Eigen::VectorXd stiffness(const PoseSpec& spec, const SelectionContext& selection,
+                          const Solid& solid, const SolidField& field, PoseResult& result) {
+  if (spec.stiffness.empty()) return {};
+  const Stopwatch watch;
+  Eigen::VectorXd factors = stiffness_factors(spec.stiffness, selection, restored_surface(solid),
+                                              solid.restored(field.points.points));
+  book(result.effects, "stiffness", watch.seconds());
+  return factors;
+}
+
 Report solve(const Solid& solid, const SolidField& field, const HandleSamples& handles,
-             const PoseSpec& spec, Stages& stages, PoseResult& result, Points& u) {
-  PoseSolver solver(field.mls, field.quadrature, field.points.volumes, handles, spec.weights);
+             const Eigen::VectorXd& stiffness, const PoseSpec& spec, Stages& stages,
+             PoseResult& result, Points& u) {
+  PoseSolver solver(field.mls, field.quadrature, field.points.volumes, handles, spec.weights,
+                    stiffness);
   const PoseSolveOptions options{
       {spec.solver, spec.max_iterations, spec.tolerance},
       spec.substeps.value_or(substeps_needed(handles, solid.particles().size())),
@@ -117,133 +120,6 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
         fmt::format("{} of {} particles are in pieces without handles: they stay",
                     solver.loose_particles(), u.rows()));
   return report;
-}
-
-/// A fine surface has millions of samples: their rows are built for so many at a time.
-constexpr std::size_t samples_at_a_time = 16384;
-
-/// How far each of a handle's surface samples is from where it was led.
-std::vector<double> misses(const Solid& solid, const SolidField& field, const PoseHandle& handle,
-                           const Points& u) {
-  std::vector<double> misses;
-  misses.reserve(handle.selected.size());
-  for (std::size_t begin = 0; begin < handle.selected.size(); begin += samples_at_a_time) {
-    const std::size_t count = std::min(samples_at_a_time, handle.selected.size() - begin);
-    Points rest(static_cast<Index>(count), 3);
-    for (std::size_t k = 0; k < count; ++k)
-      rest.row(static_cast<Index>(k)) = solid.surface().positions.row(handle.selected[begin + k]);
-    const Samples samples = sample_field(field.mls, rest, SampleContent::values);
-    for (Index k = 0; k < rest.rows(); ++k)
-      misses.push_back((samples.position(k, u) - handle.path(rest.row(k).transpose(), 1)).norm());
-  }
-  return misses;
-}
-
-/// Misses of the handles over all their surface samples, over the diagonal.
-void measure_handles(const Solid& solid, const SolidField& field, const HandleSamples& handles,
-                     const Points& u, PoseResult& result) {
-  double all_squares = 0;
-  std::size_t all_samples = 0;
-  for (const PoseHandle& handle : handles.handles()) {
-    HandleResidual residual{handle.spec->place, handle.spec->selection().text,
-                            static_cast<int>(handle.selected.size()), 0, 0};
-    double squares = 0;
-    for (const double miss : misses(solid, field, handle, u)) {
-      residual.max_error = std::max(residual.max_error, miss);
-      squares += miss * miss;
-    }
-    residual.rms_error = std::sqrt(squares / residual.samples);
-    result.handle_max_error = std::max(result.handle_max_error, residual.max_error);
-    all_squares += squares;
-    all_samples += handle.selected.size();
-    result.handles.push_back(std::move(residual));
-  }
-  if (all_samples > 0)
-    result.handle_rms_error = std::sqrt(all_squares / static_cast<double>(all_samples));
-}
-
-/// Within the region's boundary, at rest and carried along: the mesh itself may be open.
-void measure_volume(const Solid& solid, const SolidField& field, const Points& u,
-                    const DeformedSurface& surface, PoseResult& result) {
-  const CarriedBoundary& boundary = solid.boundary();
-  const Samples samples = sample_field(field.mls, boundary.extra, SampleContent::values);
-  Points extra(boundary.extra.rows(), 3);
-  for (Index k = 0; k < extra.rows(); ++k) extra.row(k) = samples.position(k, u).transpose();
-  const double unit = std::pow(solid.unit(), 3);
-  result.volume_before = unit * enclosed_volume(boundary, solid.vertices(), boundary.extra);
-  const Points moved = solid.vertices() + surface.positions - solid.inner_vertices();
-  result.volume_after = unit * enclosed_volume(boundary, moved, extra);
-}
-
-/// The smallest det F over particles and the surface's vertices, and how many are not positive.
-InversionCount worst_inversion(const Solid& solid, const SolidField& field, const Points& u,
-                               const DeformedSurface& surface) {
-  InversionCount worst = count_inversions(field.quadrature, u);
-  for (std::size_t i = 0; i < surface.gradients.size(); ++i) {
-    if (!solid.used_vertices()[i]) continue;
-    const double J = surface.gradients[i].determinant();
-    worst.min_det_F = std::min(worst.min_det_F, J);
-    if (!(J > 0)) ++worst.inverted;
-  }
-  return worst;
-}
-
-/// Hard handles that miss by more than this share of the diagonal contradict each other.
-constexpr double hard_miss = 1e-6;
-
-void judge_handles(const PoseSpec& spec, PoseResult& result) {
-  const double limit = spec.hard_handles ? hard_miss : reason_limit(ReasonCode::handle_miss);
-  if (!(result.handle_max_error > limit)) return;
-  const long missed =
-      std::count_if(result.handles.begin(), result.handles.end(),
-                    [&](const HandleResidual& handle) { return handle.max_error > limit; });
-  result.report.degrade(
-      {ReasonCode::handle_miss, missed, result.handle_max_error,
-       fmt::format("a handle misses its place by {:.2g} % of the diagonal{}",
-                   100 * result.handle_max_error,
-                   spec.hard_handles ? ": the particles cannot meet all of them at once" : "")});
-}
-
-/// Points of the field that no particle reaches, or that too few span.
-void judge_cover(const Solid& solid, const SolidField& field, Report& report) {
-  const double sampled = static_cast<double>(field.quadrature.size() + solid.vertices().rows());
-  const long lost = field.quadrature.rank_lost + field.surface.rank_lost();
-  if (static_cast<double>(lost) > reason_limit(ReasonCode::rank_lost) * sampled)
-    report.degrade({ReasonCode::rank_lost, lost, static_cast<double>(lost) / sampled,
-                    fmt::format("at {} points the particles near do not span the field's basis; "
-                                "more particles help",
-                                lost)});
-  // Vertices that no face uses may lie anywhere; the solid notes them.
-  const long unused = std::count(solid.used_vertices().begin(), solid.used_vertices().end(), false);
-  const long uncovered =
-      field.quadrature.uncovered + std::max(0L, field.surface.uncovered() - unused);
-  if (static_cast<double>(uncovered) > reason_limit(ReasonCode::uncovered))
-    report.degrade({ReasonCode::uncovered, uncovered, static_cast<double>(uncovered),
-                    fmt::format("{} points lie outside all supports and follow the nearest "
-                                "particle",
-                                uncovered)});
-}
-
-/// Beyond this a change of volume is worth a word: the volume weight is a preference.
-constexpr double notable_volume_change = 0.05;
-
-void judge(const Solid& solid, const SolidField& field, const PoseSpec& spec,
-           const InversionCount& inversion, PoseResult& result) {
-  Report& report = result.report;
-  for (const Reason& reason : solid.reasons()) report.degrade(reason);
-  if (inversion.inverted > 0)
-    report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
-                    fmt::format("{} points are turned inside out, the worst with det F = {:.3g}",
-                                inversion.inverted, inversion.min_det_F)});
-  judge_handles(spec, result);
-  judge_cover(solid, field, report);
-  const double change = result.volume_after / result.volume_before - 1;
-  if (std::abs(change) > notable_volume_change)
-    report.notes.push_back(fmt::format(
-        "the volume changed by {:+.1f} %: a greater weights.volume keeps it better", 100 * change));
-  if (!result.mesh.positions.allFinite())
-    report.fail({ReasonCode::not_finite, 1, 0, "a deformed vertex is not finite"});
-  report.finish();
 }
 
 void check_fill_gaps(const Mesh& mesh, const PoseSpec& spec) {
@@ -288,7 +164,8 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
 
   result.rest = sized(mesh, scene.shape);
   Solid solid = stages.run("sample", [&] { return Solid(result.rest, scene.shape); });
-  const HandleSamples handles = choose_handles(result.rest, solid, scene);
+  const SelectionContext selection{result.rest, solid.triangulation(), solid.box(), scene.folder};
+  const HandleSamples handles = choose_handles(selection, solid, scene);
   double thin_share = 0;
   const std::unique_ptr<const SolidField> field = stages.run("field", [&] {
     thin_share = solid.choose_particle_supports(scene.shape);
@@ -301,8 +178,10 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   if (handles.empty())
     result.report.notes.push_back("no handles: the shape stays as it is");
   else
-    result.report =
-        stages.run("solve", [&] { return solve(solid, *field, handles, spec, stages, result, u); });
+    result.report = stages.run("solve", [&] {
+      const Eigen::VectorXd factors = stiffness(spec, selection, solid, *field, result);
+      return solve(solid, *field, handles, factors, spec, stages, result, u);
+    });
 
   const DeformedSurface surface = stages.run("deform", [&] {
     DeformedSurface deformed = field->surface.deform(u, solid.particles().volumes);

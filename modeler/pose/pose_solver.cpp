@@ -57,7 +57,7 @@ void merge(const Report& step, Report& way) {
 
 PoseSolver::PoseSolver(const MovingLeastSquares<3>& field, const Samples& quadrature,
                        const Eigen::VectorXd& volumes, const HandleSamples& handles,
-                       const PoseWeights& weights)
+                       const PoseWeights& weights, const Eigen::VectorXd& stiffness)
     : particles_(field.positions()),
       quadrature_(quadrature),
       handles_(handles),
@@ -67,6 +67,7 @@ PoseSolver::PoseSolver(const MovingLeastSquares<3>& field, const Samples& quadra
       handle_energy_(handles.rest()),
       energy_(particles_.rows()),
       held_(particles_held(quadrature, handle_samples_, particles_.rows())) {
+  if (stiffness.size() > 0) volume_shares_.array() *= stiffness.array();
   energy_.add(handle_energy_, handle_samples_, handles.weights(), weights.handles);
   energy_.add(rigidity_, quadrature, volume_shares_, weights.rigidity);
   if (weights.volume > 0) energy_.add(volume_, quadrature, volume_shares_, weights.volume);

@@ -26,10 +26,10 @@ struct PoseSolveOptions {
 class PoseSolver {
  public:
   /// `quadrature` are samples with gradients, each standing for one of `volumes`; all of it
-  /// outlives the solver.
+  /// outlives the solver. `stiffness`: a factor on each sample's rigidity and volume, or empty.
   PoseSolver(const MovingLeastSquares<3>& field, const Samples& quadrature,
              const Eigen::VectorXd& volumes, const HandleSamples& handles,
-             const PoseWeights& weights);
+             const PoseWeights& weights, const Eigen::VectorXd& stiffness = {});
   PoseSolver(const PoseSolver&) = delete;
   PoseSolver& operator=(const PoseSolver&) = delete;
 

@@ -38,6 +38,7 @@ TEST(Plan, NamesTheLineThatCausedEachEffect) {
             "scene.yaml:6:7: move y>90% by 10%,0,0 turn 0,0,1,30\n"
             "+ rigidity: weights.rigidity is 1, the default\n"
             "- volume: scene.yaml:3:3: weights.volume is 0\n"
+            "- stiffness: pose.stiffness is not given: one for all parts\n"
             "+ substeps: scene.yaml:6:7: move y>90% by 10%,0,0 turn 0,0,1,30\n"
             "- hard_handles: hard_handles is false, the default\n"
             "+ surface: scene.yaml:3:3: surface is particle_gradients\n"
@@ -56,6 +57,16 @@ TEST(Plan, StepsAreOffWhereNothingMoves) {
       "shape: {mesh: bar.obj}\npose: {substeps: 1, handles: [{move: y<10%, by: [1, 0, 0]}]}\n";
   EXPECT_NE(plan_of(once).find("- substeps: scene.yaml:2:7: substeps is 1\n"), std::string::npos)
       << plan_of(once);
+}
+
+TEST(Plan, NamesThePartsThatAreStiffer) {
+  const std::string scene =
+      "shape: {mesh: bar.obj}\npose:\n  handles: [{fix: y<10%}]\n"
+      "  stiffness: [{select: y:40%..60%, times: 5}, {select: group(arm), times: 0.5}]\n";
+  EXPECT_NE(plan_of(scene).find("+ stiffness: scene.yaml:4:15: y:40%..60% is 5 times as stiff; "
+                                "scene.yaml:4:47: group(arm) is 0.5 times as stiff\n"),
+            std::string::npos)
+      << plan_of(scene);
 }
 
 TEST(Plan, WithoutHandlesNothingIsSolved) {
@@ -80,6 +91,7 @@ TEST(Plan, OfTheArmadilloScene) {
                 ":11:7: move y>85% and x>25% and x<75% by 15%,-5%,0 turn 0,0,1,-35\n"
                 "+ rigidity: weights.rigidity is 1, the default\n"
                 "+ volume: weights.volume is 1, the default\n"
+                "- stiffness: pose.stiffness is not given: one for all parts\n"
                 "+ substeps: " +
                 where +
                 ":11:7: move y>85% and x>25% and x<75% by 15%,-5%,0 turn 0,0,1,-35\n"

@@ -11,6 +11,7 @@
 #include "modeler/domain/shape_error.h"
 #include "solver/core/parallel.h"
 #include "tests/support/all_of.h"
+#include "tests/support/bar_scene.h"
 #include "tests/support/fingers.h"
 #include "tests/support/point_clouds.h"
 #include "tests/support/region_shapes.h"
@@ -19,12 +20,6 @@
 
 namespace supple {
 namespace {
-
-Scene scene_with(const std::string& pose, int particles = 200) {
-  return read_scene_text(
-      fmt::format("shape: {{mesh: bar.obj, particles: {}}}\npose:\n{}", particles, pose), "test",
-      "");
-}
 
 /// The box of Adams & Wicke's Fig. 13: base fixed, top moved sideways by a quarter of its height.
 PoseResult pose_box(double volume_weight, MinimizerKind solver = MinimizerKind::lbfgs) {
