@@ -57,6 +57,7 @@ std::vector<PoseHandle> make_handles(const std::vector<HandleSpec>& specs,
     PoseHandle handle;
     handle.spec = &spec;
     handle.selected = select(spec.selection(), context.selection, context.samples);
+    handle.moves = spec.move.has_value();
     handle.thinned = thin_samples(context.scaled_samples, handle.selected, context.sample_width);
     handle.path =
         make_path(spec, weighted_center(context.scaled_samples, handle.selected), context);
@@ -88,13 +89,23 @@ HandleSamples::HandleSamples(std::vector<PoseHandle> handles, const Points& surf
 }
 
 Points HandleSamples::targets(double share) const {
-  Points targets = rest_;
+  Points targets;
+  this->targets(share, targets);
+  return targets;
+}
+
+void HandleSamples::targets(double share, Points& targets) const {
+  targets = rest_;
   for (Index k = 0; k < rest_.rows(); ++k) {
     const PoseHandle& handle = handles_[static_cast<std::size_t>(owners_[std::size_t(k)])];
-    if (handle.spec->move)  // what is fixed stays to the last bit
+    if (handle.moves)  // what is fixed stays to the last bit
       targets.row(k) = handle.path(rest_.row(k).transpose(), share).transpose();
   }
-  return targets;
+}
+
+void HandleSamples::lead(std::size_t handle, const HandlePath& path) {
+  handles_[handle].path = path;
+  handles_[handle].moves = true;
 }
 
 int substeps_needed(const HandleSamples& handles, Index particles) {

@@ -27,6 +27,7 @@ struct PoseHandle {
   std::vector<int> selected;  ///< all surface samples inside the selection
   ThinnedSamples thinned;     ///< those that the energy sees, with their area
   HandlePath path;
+  bool moves = false;  ///< else it stays where it is
 };
 
 /// What handles are chosen from: a shape scaled by 1/`unit` about `origin`.
@@ -52,6 +53,11 @@ class HandleSamples {
   const Points& rest() const { return rest_; }
   const Eigen::VectorXd& weights() const { return weights_; }
   Points targets(double share) const;
+  void targets(double share, Points& out) const;
+
+  /// Gives a handle another way; it moves then, also where it was fixed.
+  void lead(std::size_t handle, const HandlePath& path);
+
   bool empty() const { return rest_.rows() == 0; }
   const std::vector<PoseHandle>& handles() const { return handles_; }
 

@@ -71,14 +71,12 @@ PoseSolver::PoseSolver(const MovingLeastSquares<3>& field, const Samples& quadra
   energy_.add(handle_energy_, handle_samples_, handles.weights(), weights.handles);
   energy_.add(rigidity_, quadrature, volume_shares_, weights.rigidity);
   if (weights.volume > 0) energy_.add(volume_, quadrature, volume_shares_, weights.volume);
+  preconditioner_.emplace(energy_);
 }
 
 Report PoseSolver::solve(const PoseSolveOptions& options,
                          const std::function<void(double)>& on_step, Points& u) {
-  Way fixed{Preconditioner(energy_), {}, options.minimize};
-  if (options.hard_handles)
-    fixed.constraints.emplace(handle_samples_, handles_.weights(), handles_.targets(1),
-                              fixed.preconditioner);
+  const Way fixed = way_of(options);
   const int substeps = options.substeps;
   Report way;
   double share = 0, factor = 1, energy = 0, most_energy = 0;
@@ -110,6 +108,36 @@ Report PoseSolver::solve(const PoseSolveOptions& options,
   }
   if (way.status != Status::failed) mend(fixed, u, way);
   return way;
+}
+
+PoseSolver::Way PoseSolver::way_of(const PoseSolveOptions& options) const {
+  Way way{*preconditioner_, {}, options.minimize};
+  if (options.hard_handles)
+    way.constraints.emplace(handle_samples_, handles_.weights(), handles_.targets(1),
+                            way.preconditioner);
+  return way;
+}
+
+Report PoseSolver::polish(const PoseSolveOptions& options, Points& u) {
+  const Way way = way_of(options);
+  const Points targets = handles_.targets(1);
+  handle_energy_.set_targets(targets);
+  Report report = minimize_at(way, options.minimize, targets, u);
+  if (report.usable()) mend(way, u, report);
+  return report;
+}
+
+Lbfgs::Result PoseSolver::drag(const PoseSolveOptions& options, PaddedPoints& u) {
+  handles_.targets(1, targets_);
+  handle_energy_.set_targets(targets_);
+  if (!options.hard_handles)
+    return lbfgs_.minimize(energy_, *preconditioner_, options.minimize, nullptr, u);
+  if (!constraints_)
+    constraints_.emplace(handle_samples_, handles_.weights(), targets_, *preconditioner_);
+  Points met = u.leftCols<3>();
+  constraints_->meet(targets_, met);
+  u.leftCols<3>() = met;
+  return lbfgs_.minimize(energy_, *preconditioner_, options.minimize, &*constraints_, u);
 }
 
 Report PoseSolver::step(const Way& way, double from, double to, Points& u) {

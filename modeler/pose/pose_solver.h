@@ -41,6 +41,14 @@ class PoseSolver {
   Report solve(const PoseSolveOptions& options, const std::function<void(double share)>& on_step,
                Points& u);
 
+  /// To the minimum nearest to `u`, with the handles where they shall be at last; points that are
+  /// inside out there are repaired.
+  Report polish(const PoseSolveOptions& options, Points& u);
+
+  /// One step of a drag: as polish(), from `u` [N×4], by L-BFGS alone and without repair. With soft
+  /// handles only the first one allocates.
+  Lbfgs::Result drag(const PoseSolveOptions& options, PaddedPoints& u);
+
   const Samples& handle_samples() const { return handle_samples_; }
 
   /// Particles in pieces of the shape without any handle: nothing moves them.
@@ -52,11 +60,12 @@ class PoseSolver {
  private:
   /// What stays the same on the whole way.
   struct Way {
-    Preconditioner preconditioner;
+    const Preconditioner& preconditioner;
     std::optional<HardConstraints> constraints;
     MinimizeOptions options;
   };
 
+  Way way_of(const PoseSolveOptions& options) const;
   /// Brings the handles from one share of their way to the next and minimises.
   Report step(const Way& way, double from, double to, Points& u);
   /// Takes points that are turned inside out back, where that can be.
@@ -78,7 +87,13 @@ class PoseSolver {
   RigidityEnergy rigidity_;
   VolumeEnergy volume_;
   EnergySum energy_;
+  std::optional<Preconditioner> preconditioner_;
   std::vector<bool> held_;  ///< particles that hang together with a handle
+
+  // Of drags:
+  Lbfgs lbfgs_;
+  std::optional<HardConstraints> constraints_;
+  Points targets_;
 };
 
 }  // namespace supple

@@ -12,16 +12,6 @@ MovingLeastSquares<3> weighting_field(const MovingLeastSquares<3>& field, Surfac
   return field.with(options);
 }
 
-/// The rigid part of the particles' motion. A field of order zero does not reproduce turns, so
-/// only the translation may be taken out of it.
-RigidMotion rigid_part(const Points& rest, const Points& u, const Eigen::VectorXd& volumes,
-                       bool reproduces_turns) {
-  if (reproduces_turns) return best_fit_motion(rest, rest + u, volumes);
-  RigidMotion motion;
-  motion.t = u.transpose() * volumes / volumes.sum();
-  return motion;
-}
-
 }  // namespace
 
 SurfaceEmbedding::SurfaceEmbedding(const MovingLeastSquares<3>& field, const Samples& quadrature,
@@ -34,43 +24,65 @@ SurfaceEmbedding::SurfaceEmbedding(const MovingLeastSquares<3>& field, const Sam
 }
 
 DeformedSurface SurfaceEmbedding::deform(const Points& u, const Eigen::VectorXd& volumes) const {
-  const bool reproduces_turns =
-      kind_ == SurfaceKind::particle_gradients || order_ != BasisOrder::constant;
+  Scratch scratch;
+  DeformedSurface surface;
+  const RigidMotion rigid = rigid_part(u, volumes, scratch.moved);
+  find_remainder(u, rigid, 1, scratch);
+  if (kind_ == SurfaceKind::field) {
+    blocks_.displace(rigid, scratch.remainder, surface.positions);
+    blocks_.displace_gradients(rigid, scratch.remainder, surface.gradients);
+  } else {
+    blocks_.blend(rigid, scratch.maps, surface.positions);
+    blocks_.blend_gradients(rigid, scratch.maps, surface.gradients);
+  }
+  return surface;
+}
+
+void SurfaceEmbedding::positions(const Points& u, const Eigen::VectorXd& volumes,
+                                 const Frame& frame, Scratch& scratch, Points& out) const {
+  const RigidMotion rigid = rigid_part(u, volumes, scratch.moved);
+  find_remainder(u, rigid, frame.unit, scratch);
+  // The blocks add what they sum to any linear map, so the frame goes into the rigid part.
+  const RigidMotion framed{frame.unit * rigid.R, frame.origin + frame.unit * rigid.t};
+  if (kind_ == SurfaceKind::field)
+    blocks_.displace(framed, scratch.remainder, out);
+  else
+    blocks_.blend(framed, scratch.maps, out);
+}
+
+RigidMotion SurfaceEmbedding::rigid_part(const Points& u, const Eigen::VectorXd& volumes,
+                                         Points& moved) const {
+  RigidMotion motion;
   // Where nothing moved, not even rounding may show.
-  const RigidMotion rigid =
-      u.isZero(0) ? RigidMotion()
-                  : rigid_part(quadrature_.points.topRows(u.rows()), u, volumes, reproduces_turns);
-  return kind_ == SurfaceKind::field ? follow_field(u, rigid) : follow_particles(u, rigid);
-}
-
-DeformedSurface SurfaceEmbedding::follow_field(const Points& u, const RigidMotion& rigid) const {
-  ParticleValues<3> remainder(u.rows(), 3);
-  for (Index j = 0; j < u.rows(); ++j) {
-    const Vec3 x = quadrature_.points.row(j).transpose();
-    const Vec3 moved = u.row(j).transpose() - ((rigid.R - Mat3::Identity()) * x + rigid.t);
-    remainder.row(j) = moved.cast<float>().transpose();
+  if (u.isZero(0)) return motion;
+  if (kind_ == SurfaceKind::particle_gradients || order_ != BasisOrder::constant) {
+    const auto rest = quadrature_.points.topRows(u.rows());
+    moved = rest + u;
+    return best_fit_motion(rest, moved, volumes);
   }
-  DeformedSurface surface;
-  blocks_.displace(rigid, remainder, surface.positions);
-  blocks_.displace_gradients(rigid, remainder, surface.gradients);
-  return surface;
+  // A field of order zero does not reproduce turns: only the translation may be taken out of it.
+  motion.t = u.transpose() * volumes / volumes.sum();
+  return motion;
 }
 
-DeformedSurface SurfaceEmbedding::follow_particles(const Points& u,
-                                                   const RigidMotion& rigid) const {
-  ParticleValues<12> maps(u.rows(), 12);
+void SurfaceEmbedding::find_remainder(const Points& u, const RigidMotion& rigid, double unit,
+                                      Scratch& scratch) const {
+  const bool by_field = kind_ == SurfaceKind::field;
+  scratch.remainder.resize(by_field ? u.rows() : 0, 3);
+  scratch.maps.resize(by_field ? 0 : u.rows(), 12);
   for (Index j = 0; j < u.rows(); ++j) {
     const Vec3 x = quadrature_.points.row(j).transpose();
+    const Vec3 turned = (rigid.R - Mat3::Identity()) * x + rigid.t;
+    if (by_field) {
+      scratch.remainder.row(j) = (unit * (u.row(j).transpose() - turned)).cast<float>().transpose();
+      continue;
+    }
     const Mat3 B = quadrature_.deformation_gradient(j, u) - rigid.R;
-    const Vec3 b =
-        quadrature_.displacement(j, u) - ((rigid.R - Mat3::Identity()) * x + rigid.t) - B * x;
-    maps.row(j).head<3>() = b.cast<float>().transpose();
-    for (int a = 0; a < 3; ++a) maps.row(j).segment<3>(3 + 3 * a) = B.row(a).cast<float>();
+    const Vec3 b = quadrature_.displacement(j, u) - turned - B * x;
+    scratch.maps.row(j).head<3>() = (unit * b).cast<float>().transpose();
+    for (int a = 0; a < 3; ++a)
+      scratch.maps.row(j).segment<3>(3 + 3 * a) = (unit * B.row(a)).cast<float>();
   }
-  DeformedSurface surface;
-  blocks_.blend(rigid, maps, surface.positions);
-  blocks_.blend_gradients(rigid, maps, surface.gradients);
-  return surface;
 }
 
 }  // namespace supple

@@ -29,13 +29,33 @@ class SurfaceEmbedding {
   /// Follows displacements `u` [m] N×3; `volumes` weigh the particles in the rigid part.
   DeformedSurface deform(const Points& u, const Eigen::VectorXd& volumes) const;
 
+  /// Where a pose's positions go to: x ↦ origin + unit·x.
+  struct Frame {
+    Vec3 origin = Vec3::Zero();
+    double unit = 1;
+  };
+
+  /// What positions() needs on the way; held by the caller, so that only the first call allocates.
+  struct Scratch {
+    Points moved;
+    ParticleValues<3> remainder;
+    ParticleValues<12> maps;
+  };
+
+  /// The positions of deform() alone, in `frame`.
+  void positions(const Points& u, const Eigen::VectorXd& volumes, const Frame& frame,
+                 Scratch& scratch, Points& out) const;
+
   /// Vertices outside all supports: they follow the nearest particle.
   long uncovered() const { return blocks_.uncovered(); }
   long rank_lost() const { return kind_ == SurfaceKind::field ? blocks_.rank_lost() : 0; }
 
  private:
-  DeformedSurface follow_field(const Points& u, const RigidMotion& rigid) const;
-  DeformedSurface follow_particles(const Points& u, const RigidMotion& rigid) const;
+  RigidMotion rigid_part(const Points& u, const Eigen::VectorXd& volumes, Points& moved) const;
+  /// What the particles do beside the rigid motion, times `unit`: their displacements, or the
+  /// affine maps about them.
+  void find_remainder(const Points& u, const RigidMotion& rigid, double unit,
+                      Scratch& scratch) const;
 
   SurfaceKind kind_;
   BasisOrder order_;

@@ -29,9 +29,10 @@ RigidMotion best_fit_motion(const Points& from, const Points& to, const Eigen::V
   if (!(total > 0)) return motion;
   const Vec3 from_center = from.transpose() * weights / total;
   const Vec3 to_center = to.transpose() * weights / total;
-  const Points a = from.rowwise() - from_center.transpose();
-  const Points b = to.rowwise() - to_center.transpose();
-  const Mat3 H = a.transpose() * weights.asDiagonal() * b;
+  Mat3 H = Mat3::Zero();
+  for (Index i = 0; i < from.rows(); ++i)
+    H += (weights[i] * (from.row(i).transpose() - from_center)) *
+         (to.row(i) - to_center.transpose());
 
   // The identity's small share settles the turns that the points leave open, and no others.
   const double size = H.norm();

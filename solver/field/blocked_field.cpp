@@ -1,6 +1,7 @@
 #include "solver/field/blocked_field.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "solver/core/check.h"
@@ -80,7 +81,7 @@ void BlockedField::add_block(const Samples& rows, Chunk& chunk) {
 
 template <std::size_t Sums, class Add, class Store>
 void BlockedField::for_each_block(const Add& add, const Store& store) const {
-  parallel_chunks(static_cast<Index>(chunks_.size()), 1, [&](Index begin, Index) {
+  const auto walk = [&](Index begin, Index) {
     const Chunk& chunk = chunks_[static_cast<std::size_t>(begin)];
     for (std::size_t block = 0; block + 1 < chunk.block_starts.size(); ++block) {
       std::array<Lanes, Sums> sums;
@@ -95,7 +96,9 @@ void BlockedField::for_each_block(const Add& add, const Store& store) const {
           store(sums, static_cast<Index>(lane), order_[first_lane + lane],
                 rest_[first_lane + lane]);
     }
-  });
+  };
+  // By reference, so that nothing is allocated.
+  parallel_chunks(static_cast<Index>(chunks_.size()), 1, std::cref(walk));
 }
 
 void BlockedField::displace(const RigidMotion& rigid, const ParticleValues<3>& d,

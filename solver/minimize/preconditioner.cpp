@@ -11,31 +11,48 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// Adds weight·(ρ_i·ρ_j) for every pair of particles in one sample's row.
+/// Up to here C is summed in a dense matrix, which is quicker than sorting its entries.
+constexpr Index most_dense = 2000;
+
+/// Calls add(i, j, C_ij's share) for every pair i ≥ j of particles in one sample's row.
+template <class Add>
 void add_row(const Samples& samples, Index k, Energy::Argument argument, double weight,
-             Triplets& triplets) {
+             const Add& add) {
   for (int a = samples.row_begin(k); a < samples.row_end(k); ++a)
     for (int b = samples.row_begin(k); b < samples.row_end(k); ++b) {
       const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+      if (samples.particles[i] < samples.particles[j]) continue;
       const double product = argument == Energy::Argument::position
                                  ? samples.values[i] * samples.values[j]
                                  : samples.gradients[i].dot(samples.gradients[j]);
-      triplets.emplace_back(samples.particles[i], samples.particles[j], weight * product);
+      add(samples.particles[i], samples.particles[j], weight * product);
     }
 }
 
-Sparse proxy(const EnergySum& energy) {
-  const Index n = energy.particles();
-  Triplets triplets;
+template <class Add>
+void add_rows(const EnergySum& energy, const Add& add) {
   for (const EnergyGroup& group : energy.groups()) {
     double stiffness = 0;
     for (const EnergyGroup::Term& term : group.terms)
       stiffness += term.weight * term.energy->stiffness();
     for (Index k = 0; k < group.samples->size(); ++k)
-      add_row(*group.samples, k, group.argument, stiffness * group.sample_weights[k], triplets);
+      add_row(*group.samples, k, group.argument, stiffness * group.sample_weights[k], add);
   }
+}
+
+/// The lower half of C.
+Sparse proxy(const EnergySum& energy) {
+  const Index n = energy.particles();
   Sparse C(n, n);
-  C.setFromTriplets(triplets.begin(), triplets.end());
+  if (n <= most_dense) {
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+    add_rows(energy, [&](int i, int j, double share) { dense(i, j) += share; });
+    C = dense.sparseView();
+  } else {
+    Triplets triplets;
+    add_rows(energy, [&](int i, int j, double share) { triplets.emplace_back(i, j, share); });
+    C.setFromTriplets(triplets.begin(), triplets.end());
+  }
   // Without enough handles C has null directions; ε keeps them finite and far from the rest.
   const double mean = C.diagonal().sum() / static_cast<double>(n);
   Sparse shift(n, n);

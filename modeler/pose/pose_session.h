@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+
+#include "io/mesh/mesh.h"
+#include "io/scene/scene.h"
+#include "modeler/pose/handles.h"
+#include "modeler/pose/pose_solver.h"
+#include "modeler/pose/solid_field.h"
+#include "modeler/surface/vertex_normals.h"
+
+namespace supple {
+
+/// A shape held ready to be posed again and again, as where somebody drags at it: what does not
+/// depend on where the handles go is made once, and each pose starts from the one before. After
+/// the first drag() and deform() neither allocates.
+class PoseSession {
+ public:
+  /// Shape, handles, weights and limits as pose() takes them. Errors: as there; UsageError without
+  /// handles.
+  PoseSession(const Mesh& mesh, const Scene& scene);
+  PoseSession(const PoseSession&) = delete;
+  PoseSession& operator=(const PoseSession&) = delete;
+
+  std::size_t handles() const { return handles_.handles().size(); }
+  Index particles() const { return u_.rows(); }
+
+  /// Says where a handle, by its number in the scene, shall go from its place at rest; points and
+  /// lengths in the user's coordinates.
+  void lead(std::size_t handle, const HandlePath& path);
+
+  /// One step of a drag: from the pose there is to the nearest minimum with the handles led so.
+  Lbfgs::Result drag(const MinimizeOptions& options = {.tolerance = 1e-4});
+
+  /// The pose that counts, when the drag is over: minimised as the scene asks from the pose there
+  /// is and once more on the way from rest; the lower one stays. So it is no worse than pose()'s,
+  /// whatever the drag went through.
+  Report release();
+
+  /// The surface in the pose there is [user's coordinates], n×3, in the input's order of vertices.
+  void deform(Points& positions);
+  /// With unit normals, the mean of the faces around by area.
+  void deform(Points& positions, Points& normals);
+
+ private:
+  PoseSolveOptions options() const;
+
+  const Mesh rest_;
+  const Scene scene_;
+  Solid solid_;
+  HandleSamples handles_;
+  std::unique_ptr<const SolidField> field_;
+  std::unique_ptr<PoseSolver> solver_;
+  SurfaceEmbedding::Scratch scratch_;
+  VertexNormals normals_;
+  PaddedPoints u_;    ///< over the shape's diagonal
+  Points displaced_;  ///< the same, for the surface
+};
+
+}  // namespace supple
