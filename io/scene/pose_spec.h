@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "io/scene/named_file.h"
 #include "io/scene/quantity.h"
 #include "io/scene/selection.h"
 #include "solver/core/describe.h"
@@ -29,19 +30,24 @@ struct TurnSpec {
 /// A part of the surface that is held, or led to another place.
 struct HandleSpec {
   Place place;
-  std::optional<Selection> fix;  ///< exactly one of fix and move is given
+  std::optional<Selection> fix;  ///< exactly one of fix and move is given; neither: all in `to`
   std::optional<Selection> move;
+  std::optional<NamedFile> to;  ///< places of vertices, instead of by, turn and scale
   LengthVector by{};
   std::optional<TurnSpec> turn;
   Vec3 scale = Vec3::Ones();  ///< about the selection's centre
   double weight = 1;
 
-  const Selection& selection() const { return fix ? *fix : *move; }
+  /// What it holds or leads, as the user wrote it.
+  const std::string& part() const { return fix ? fix->text : move ? move->text : to->path; }
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     visit("fix", self.fix, {.doc = "part of the surface that stays where it is"});
     visit("move", self.move, {.doc = "part of the surface that is led to another place"});
+    visit("to", self.to,
+          {.doc = "where each vertex of what is moved goes: a mesh or cloud of the same vertices, "
+                  "or text with a line `number x y z` for each, which needs no move"});
     visit("by", self.by, {.doc = "displacement of what is moved", .unit = "length"});
     visit("turn", self.turn, {.doc = "turn of what is moved"});
     visit("scale", self.scale,
@@ -97,6 +103,7 @@ EnumNames<SurfaceKind> enum_names(SurfaceKind);
 struct PoseSpec {
   Place place;
   std::vector<HandleSpec> handles;
+  std::optional<NamedFile> from;
   PoseWeights weights;
   std::vector<StiffnessSpec> stiffness;
   MinimizerKind solver = MinimizerKind::lbfgs;
@@ -110,6 +117,9 @@ struct PoseSpec {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     visit("handles", self.handles, {.doc = "parts of the surface that are fixed or moved"});
+    visit("from", self.from,
+          {.doc = "the shape in another pose, where the handles' way starts: what is fixed is held "
+                  "as it is there; selections and energies speak of the rest shape"});
     visit("weights", self.weights, {.doc = "weights of the energies"});
     visit("stiffness", self.stiffness,
           {.doc = "parts whose rigidity and volume terms weigh more than the rest's"});

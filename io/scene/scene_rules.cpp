@@ -45,19 +45,29 @@ void check_rules(const PoseSpec& pose, const SceneItem& item) {
              "pose.hard_handles: true, with solver: trust_region; allowed: with lbfgs, nlopt");
 }
 
+[[noreturn]] static void complain_beside_fix(const SceneItem& movement) {
+  complain(movement.place, fmt::format("{} stands beside fix, which holds its part in place; "
+                                       "allowed: only with move",
+                                       movement.path));
+}
+
 void check_rules(const HandleSpec& handle, const SceneItem& item) {
-  if (!handle.fix && !handle.move)
+  if (!handle.fix && !handle.move && !handle.to)
     complain(item.place,
              fmt::format("{}: fix or move is missing; allowed: one of them", item.path));
   if (handle.fix && handle.move)
     complain(find_item(item, "move")->place,
              fmt::format("{}: fix and move are both given; allowed: one of them", item.path));
-  if (!handle.fix) return;
-  for (const std::string_view key : {"by", "turn", "scale"})
-    if (const auto movement = find_item(item, key))
-      complain(movement->place, fmt::format("{} stands beside fix, which holds its part in "
-                                            "place; allowed: only with move",
-                                            movement->path));
+  if (handle.to && handle.fix) complain_beside_fix(*find_item(item, "to"));
+  for (const std::string_view key : {"by", "turn", "scale"}) {
+    const auto movement = find_item(item, key);
+    if (movement && handle.fix) complain_beside_fix(*movement);
+    if (movement && handle.to)
+      complain(movement->place,
+               fmt::format("{} stands beside to, which says where each vertex goes; allowed: one "
+                           "of them",
+                           movement->path));
+  }
 }
 
 void check_rules(const TurnSpec& turn, const SceneItem& item) {

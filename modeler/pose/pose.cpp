@@ -1,5 +1,6 @@
 #include "modeler/pose/pose.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -11,9 +12,11 @@
 #include "modeler/pose/pose_measures.h"
 #include "modeler/pose/pose_solver.h"
 #include "modeler/pose/solid_field.h"
+#include "modeler/pose/starting_pose.h"
 #include "modeler/pose/stiffness.h"
 #include "modeler/surface/deform_mesh.h"
 #include "modeler/surface/fill_gaps.h"
+#include "solver/core/check.h"
 #include "solver/core/stopwatch.h"
 
 namespace supple {
@@ -51,25 +54,32 @@ class Stages {
 /// How far apart handles are sampled, in spacings: hard ones shall be met between samples too.
 constexpr double handle_width = 0.5, hard_handle_width = 0.1;
 
-/// The surface in the user's coordinates: selections speak of them.
-SurfaceSamples restored_surface(const Solid& solid) {
-  SurfaceSamples samples = solid.surface();
-  samples.positions = solid.restored(samples.positions);
-  return samples;
-}
+/// What handles are chosen from; owns the vertices where a handle speaks of them.
+struct HandleChoice {
+  SurfaceSamples vertices;
+  HandleContext context;
 
-HandleSamples choose_handles(const SelectionContext& selection, const Solid& solid,
-                             const Scene& scene) {
-  const SurfaceSamples samples = restored_surface(solid);
-  const HandleContext context{
-      selection,
-      samples,
-      solid.surface(),
-      solid.origin(),
-      solid.unit(),
-      (scene.pose->hard_handles ? hard_handle_width : handle_width) * solid.particles().spacing};
-  return {make_handles(scene.pose->handles, context), solid.surface().positions};
-}
+  HandleChoice(const Mesh& mesh, const Solid& solid, const Scene& scene)
+      : vertices(vertices_of(solid, scene)),
+        context{{mesh, solid.triangulation(), solid.box(), scene.folder},
+                solid.surface(),
+                vertices,
+                solid.origin(),
+                solid.unit(),
+                (scene.pose->hard_handles ? hard_handle_width : handle_width) *
+                    solid.particles().spacing} {}
+  HandleChoice(const HandleChoice&) = delete;
+
+ private:
+  static SurfaceSamples vertices_of(const Solid& solid, const Scene& scene) {
+    const bool needed = std::any_of(scene.pose->handles.begin(), scene.pose->handles.end(),
+                                    [](const HandleSpec& handle) { return handle.to.has_value(); });
+    if (!needed) return {};
+    const Triangles& triangles = solid.triangulation().triangles;
+    return triangles.rows() > 0 ? vertex_samples(solid.inner_vertices(), triangles)
+                                : solid.surface();
+  }
+};
 
 /// Books time on an active effect.
 void book(std::vector<Effect>& effects, const std::string& name, double seconds) {
@@ -88,12 +98,13 @@ void book_coupling(std::vector<Effect>& effects, const Solid& solid) {
 }
 
 /// The parts' factors at the points where energies are summed; empty without such parts.
-Eigen::VectorXd stiffness(const PoseSpec& spec, const SelectionContext& selection,
-                          const Solid& solid, const SolidField& field, PoseResult& result) {
+Eigen::VectorXd stiffness(const PoseSpec& spec, const HandleContext& context, const Solid& solid,
+                          const SolidField& field, PoseResult& result) {
   if (spec.stiffness.empty()) return {};
   const Stopwatch watch;
-  Eigen::VectorXd factors = stiffness_factors(spec.stiffness, selection, restored_surface(solid),
-                                              solid.restored(field.points.points));
+  Eigen::VectorXd factors =
+      stiffness_factors(spec.stiffness, context.selection, context.restored(context.surface),
+                        solid.restored(field.points.points));
   book(result.effects, "stiffness", watch.seconds());
   return factors;
 }
@@ -127,6 +138,34 @@ void check_fill_gaps(const Mesh& mesh, const PoseSpec& spec) {
     complain(spec.place, "pose.fill_gaps: the shape has faces; allowed: with a point cloud");
 }
 
+void check_files(const Mesh& mesh, const PoseSpec& spec, const PoseFiles& files) {
+  SUPPLE_CHECK(spec.from.has_value() == files.from.has_value(), "pose.from is loaded");
+  SUPPLE_CHECK(files.targets.empty() || files.targets.size() == spec.handles.size(),
+               "targets are loaded, one a handle");
+  if (!files.from) return;
+  if (files.from->rows() != mesh.positions.rows())
+    complain(spec.from->place,
+             fmt::format("pose.from: {} has {} vertices, the shape {}; allowed: another pose of "
+                         "the same vertices",
+                         spec.from->path, files.from->rows(), mesh.positions.rows()));
+  if (!files.from->allFinite())
+    complain(spec.from->place,
+             fmt::format("pose.from: {} has a number that is not finite", spec.from->path));
+}
+
+/// Fits the pose that the scene starts from, and lets the handles' ways begin there.
+std::optional<StartingPose> fit_start(const Solid& solid, const SolidField& field,
+                                      const PoseFiles& files, const HandleContext& context,
+                                      std::vector<PoseHandle>& handles, PoseResult& result) {
+  if (!files.from) return {};
+  const Stopwatch watch;
+  StartingPose from = fit_pose(solid, field, solid.scaled(*files.from));
+  for (PoseHandle& handle : handles)
+    begin_at(carried(field, *handle.samples, handle.selected, from.u), context, handle);
+  book(result.effects, "from", watch.seconds());
+  return from;
+}
+
 /// Points in the user's coordinates, carried as the surface is.
 DeformedSurface carry_points(const Solid& solid, const SolidField& field, SurfaceKind kind,
                              const Points& u, const Points& rest) {
@@ -154,18 +193,20 @@ void fill_gaps(const Solid& solid, const SolidField& field, SurfaceKind kind, co
 
 }  // namespace
 
-PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) {
+PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress,
+                const PoseFiles& files) {
   PoseResult result;
   Report timing;
   Stages stages(progress, timing);
   const PoseSpec& spec = *scene.pose;
   check_fill_gaps(mesh, spec);
+  check_files(mesh, spec, files);
   result.effects = make_plan(scene).effects;
 
   result.rest = sized(mesh, scene.shape);
   Solid solid = stages.run("sample", [&] { return Solid(result.rest, scene.shape); });
-  const SelectionContext selection{result.rest, solid.triangulation(), solid.box(), scene.folder};
-  const HandleSamples handles = choose_handles(selection, solid, scene);
+  const HandleChoice choice(result.rest, solid, scene);
+  std::vector<PoseHandle> chosen = make_handles(spec.handles, files.targets, choice.context);
   double thin_share = 0;
   const std::unique_ptr<const SolidField> field = stages.run("field", [&] {
     thin_share = solid.choose_particle_supports(scene.shape);
@@ -174,14 +215,19 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
 
   book_coupling(result.effects, solid);
 
-  Points u = Points::Zero(solid.particles().size(), 3);
+  const std::optional<StartingPose> from =
+      fit_start(solid, *field, files, choice.context, chosen, result);
+  Points u = from ? from->u : Points::Zero(solid.particles().size(), 3);
+  const HandleSamples handles(std::move(chosen));
   if (handles.empty())
-    result.report.notes.push_back("no handles: the shape stays as it is");
+    result.report.notes.push_back(from ? "no handles: the shape stays as pose.from has it"
+                                       : "no handles: the shape stays as it is");
   else
     result.report = stages.run("solve", [&] {
-      const Eigen::VectorXd factors = stiffness(spec, selection, solid, *field, result);
+      const Eigen::VectorXd factors = stiffness(spec, choice.context, solid, *field, result);
       return solve(solid, *field, handles, factors, spec, stages, result, u);
     });
+  if (from) judge_start(*from, result.report);
 
   const DeformedSurface surface = stages.run("deform", [&] {
     DeformedSurface deformed = field->surface.deform(u, solid.particles().volumes);
@@ -202,9 +248,10 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   result.particles.spacing *= solid.unit();
   result.displacements = solid.unit() * u;
   result.handle_rest = solid.restored(handles.rest());
+  result.handle_start = solid.restored(handles.start());
   result.handle_targets = solid.restored(handles.targets(1));
   measure_volume(solid, *field, u, surface, result);
-  measure_handles(solid, *field, handles, u, result);
+  measure_handles(*field, handles, u, result);
 
   const InversionCount inversion = worst_inversion(solid, *field, u, surface);
   result.min_det_F = inversion.min_det_F;

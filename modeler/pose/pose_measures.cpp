@@ -9,37 +9,26 @@
 namespace supple {
 namespace {
 
-/// A fine surface has millions of samples: their rows are built for so many at a time.
-constexpr std::size_t samples_at_a_time = 16384;
-
 /// How far each of a handle's surface samples is from where it was led.
-std::vector<double> misses(const Solid& solid, const SolidField& field, const PoseHandle& handle,
-                           const Points& u) {
+std::vector<double> misses(const SolidField& field, const PoseHandle& handle, const Points& u) {
+  const Points reached = carried(field, *handle.samples, handle.selected, u);
   std::vector<double> misses;
-  misses.reserve(handle.selected.size());
-  for (std::size_t begin = 0; begin < handle.selected.size(); begin += samples_at_a_time) {
-    const std::size_t count = std::min(samples_at_a_time, handle.selected.size() - begin);
-    Points rest(static_cast<Index>(count), 3);
-    for (std::size_t k = 0; k < count; ++k)
-      rest.row(static_cast<Index>(k)) = solid.surface().positions.row(handle.selected[begin + k]);
-    const Samples samples = sample_field(field.mls, rest, SampleContent::values);
-    for (Index k = 0; k < rest.rows(); ++k)
-      misses.push_back((samples.position(k, u) - handle.path(rest.row(k).transpose(), 1)).norm());
-  }
+  for (Index row = 0; row < reached.rows(); ++row)
+    misses.push_back((reached.row(row).transpose() - handle.target(row, 1)).norm());
   return misses;
 }
 
 }  // namespace
 
-void measure_handles(const Solid& solid, const SolidField& field, const HandleSamples& handles,
-                     const Points& u, PoseResult& result) {
+void measure_handles(const SolidField& field, const HandleSamples& handles, const Points& u,
+                     PoseResult& result) {
   double all_squares = 0;
   std::size_t all_samples = 0;
   for (const PoseHandle& handle : handles.handles()) {
-    HandleResidual residual{handle.spec->place, handle.spec->selection().text,
+    HandleResidual residual{handle.spec->place, handle.spec->part(),
                             static_cast<int>(handle.selected.size()), 0, 0};
     double squares = 0;
-    for (const double miss : misses(solid, field, handle, u)) {
+    for (const double miss : misses(field, handle, u)) {
       residual.max_error = std::max(residual.max_error, miss);
       squares += miss * miss;
     }
@@ -119,6 +108,17 @@ void judge_cover(const Solid& solid, const SolidField& field, Report& report) {
 constexpr double notable_volume_change = 0.05;
 
 }  // namespace
+
+void judge_start(const StartingPose& from, Report& report) {
+  const double percent = 100 * from.miss;
+  report.notes.push_back(
+      fmt::format("pose.from is met to {:.2g} % of the diagonal at its vertices", percent));
+  if (from.miss > reason_limit(ReasonCode::from_miss))
+    report.degrade({ReasonCode::from_miss, 1, from.miss,
+                    fmt::format("the particles cannot take pose.from: a vertex of it is missed by "
+                                "{:.2g} % of the diagonal; more particles may help",
+                                percent)});
+}
 
 void judge(const Solid& solid, const SolidField& field, const PoseSpec& spec,
            const InversionCount& inversion, PoseResult& result) {

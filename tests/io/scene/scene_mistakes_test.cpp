@@ -127,6 +127,11 @@ TEST(SceneMistakes, InPoses) {
       {pose + "hard_handles: \"true\"", "4:17", "allowed: true, false"},
       {pose + "solver: lbfg", "4:11", "allowed: lbfgs, trust_region, nlopt; did you mean 'lbfgs'?"},
       {pose + "region: y<1", "4:3", "pose.region is not available yet"},
+      {"shape: {mesh: a}\npose: {handles: [{move: y<1, to: b.ply, by: [1, 0, 0]}]}", "2:45",
+       "pose.handles[0].by stands beside to"},
+      {"shape: {mesh: a}\npose: {handles: [{fix: y<1, to: b.ply}]}", "2:33",
+       "pose.handles[0].to stands beside fix"},
+      {pose + "from: []", "4:9", "pose.from is a list, must be text"},
       {pose + "stiffness: [{select: y<1}]", "4:15", "pose.stiffness[0].times is missing"},
       {pose + "stiffness: [{times: 2}]", "4:15", "pose.stiffness[0].select is missing"},
       {pose + "stiffness: [{select: y<1, times: 0}]", "4:36", "must be > 0 and <= 1000000"},
@@ -186,7 +191,7 @@ TEST(SceneMistakes, InSelections) {
       {pose + "{fix: y<1 or sphere(0,0,0,1)}", "4:13", "write the map form"},
       {pose + "{fix: {and: [y<1, nearest(0, 0, 0)]}}", "4:25", "'nearest(0' was cut off"},
       {pose + "{fix y<8%}", "4:8",
-       "unknown key 'fix y<8%' in pose.handles[0]; allowed: fix, move, "
+       "unknown key 'fix y<8%' in pose.handles[0]; allowed: fix, move, to, "
        "by, turn, scale, weight; it has no value: ': ' is missing"},
       {pose + "{fix:y<8%}", "4:8", "': ' is missing in it"},
       {pose + "fix:y<8%", "4:7", "a space is missing after ':'"},
