@@ -96,6 +96,20 @@ struct StiffnessSpec {
   }
 };
 
+/// A plane that every handle acts on both sides of.
+struct MirrorSpec {
+  Place place;
+  Vec3 normal = Vec3::UnitX();
+  std::optional<LengthVector> at;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("normal", self.normal, {.doc = "across the plane, any length but 0"});
+    visit("at", self.at,
+          {.doc = "point of the plane; default: the centre of the shape's box", .unit = "length"});
+  }
+};
+
 enum class SurfaceKind { field, particle_gradients };
 EnumNames<SurfaceKind> enum_names(SurfaceKind);
 
@@ -106,6 +120,9 @@ struct PoseSpec {
   std::optional<NamedFile> from;
   PoseWeights weights;
   std::vector<StiffnessSpec> stiffness;
+  std::optional<Selection> region;
+  std::optional<Length> region_blend;
+  std::optional<MirrorSpec> mirror;
   MinimizerKind solver = MinimizerKind::lbfgs;
   bool hard_handles = false;
   int max_iterations = 2000;
@@ -123,6 +140,16 @@ struct PoseSpec {
     visit("weights", self.weights, {.doc = "weights of the energies"});
     visit("stiffness", self.stiffness,
           {.doc = "parts whose rigidity and volume terms weigh more than the rest's"});
+    visit("region", self.region,
+          {.doc = "part of the shape that may move: vertices outside it keep every bit"});
+    visit("region_blend", self.region_blend,
+          {.doc = "width inside the region over which the pose sets in smoothly; default: two "
+                  "spacings of the particles",
+           .unit = "length",
+           .min = 0,
+           .exclusive_min = true});
+    visit("mirror", self.mirror,
+          {.doc = "plane: every handle acts mirrored on its other side too"});
     visit("solver", self.solver, {.doc = "minimiser"});
     visit("hard_handles", self.hard_handles,
           {.doc = "true: handles are met exactly, as far as the particles can and they do not "

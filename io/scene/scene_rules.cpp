@@ -17,11 +17,6 @@ std::span<const std::string_view> later_keys(const ShapeSpec&) {
   return keys;
 }
 
-std::span<const std::string_view> later_keys(const PoseSpec&) {
-  static constexpr std::array<std::string_view, 1> keys{"region"};
-  return keys;
-}
-
 void check_rules(const Scene& scene, const SceneItem& item) {
   if (scene.pose && !find_item(item, "shape"))
     complain(scene.pose->place,
@@ -43,6 +38,9 @@ void check_rules(const PoseSpec& pose, const SceneItem& item) {
   if (pose.hard_handles && pose.solver == MinimizerKind::trust_region)
     complain(find_item(item, "hard_handles")->place,
              "pose.hard_handles: true, with solver: trust_region; allowed: with lbfgs, nlopt");
+  if (pose.region_blend && !pose.region)
+    complain(find_item(item, "region_blend")->place,
+             "pose.region_blend: pose.region is missing; allowed: only with it");
 }
 
 [[noreturn]] static void complain_beside_fix(const SceneItem& movement) {
@@ -82,6 +80,14 @@ void check_rules(const StiffnessSpec&, const SceneItem& item) {
   for (const std::string_view key : {"select", "times"})
     if (!find_item(item, key))
       complain(item.place, fmt::format("{}.{} is missing", item.path, key));
+}
+
+void check_rules(const MirrorSpec& mirror, const SceneItem& item) {
+  if (!find_item(item, "normal"))
+    complain(item.place, fmt::format("{}.normal is missing", item.path));
+  if (mirror.normal.squaredNorm() == 0)
+    complain(find_item(item, "normal")->place,
+             fmt::format("{}.normal = 0, must have a length", item.path));
 }
 
 }  // namespace supple

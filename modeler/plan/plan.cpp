@@ -123,8 +123,20 @@ void add_from(const PoseSpec& pose, std::vector<Effect>& effects) {
                         : off("from", "pose.from is not given: the way starts at rest"));
 }
 
+void add_region(const PoseSpec& pose, std::vector<Effect>& effects) {
+  if (!pose.region) {
+    effects.push_back(off("region", "pose.region is not given: all may move"));
+    return;
+  }
+  const std::string width = pose.region_blend ? to_string(*pose.region_blend) : "two spacings";
+  effects.push_back(
+      on("region", fmt::format("{}: nothing outside {} moves; the pose sets in over {}",
+                               to_string(pose.region->place), pose.region->text, width)));
+}
+
 void add_solving(const PoseSpec& pose, std::vector<Effect>& effects) {
   add_from(pose, effects);
+  add_region(pose, effects);
   if (pose.handles.empty()) {
     for (const char* name :
          {"handles", "rigidity", "volume", "stiffness", "substeps", "hard_handles"})

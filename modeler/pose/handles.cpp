@@ -24,7 +24,7 @@ Eigen::VectorXd areas_of(const PoseHandle& handle) {
 
 Points start_of(const PoseHandle& handle) {
   if (handle.start.rows() > 0) return handle.start;
-  return handle.samples->positions(handle.selected, Eigen::all);
+  return handle.rest();
 }
 
 /// The path in scaled coordinates, for a selection with its centre there.
@@ -148,6 +148,17 @@ std::vector<PoseHandle> make_handles(const std::vector<HandleSpec>& specs,
   return handles;
 }
 
+PoseHandle make_hold(const HandleSpec& spec, std::vector<int> samples,
+                     const HandleContext& context) {
+  PoseHandle hold;
+  hold.spec = &spec;
+  hold.samples = &context.surface;
+  hold.selected = std::move(samples);
+  hold.thinned = thin_samples(context.surface, hold.selected, context.hold_width);
+  hold.origin = HandleOrigin::region;
+  return hold;
+}
+
 void begin_at(Points start, const HandleContext& context, PoseHandle& handle) {
   handle.start = std::move(start);
   find_path(context, handle);
@@ -158,16 +169,18 @@ HandleSamples::HandleSamples(std::vector<PoseHandle> handles) : handles_(std::mo
   double total = 0;
   for (const PoseHandle& handle : handles_) {
     count += handle.thinned.indices.size();
-    total += handle.spec->weight;
+    if (handle.origin == HandleOrigin::user) total += handle.spec->weight;
   }
   rest_.resize(static_cast<Index>(count), 3);
   weights_.resize(static_cast<Index>(count));
   Index row = 0;
   for (std::size_t h = 0; h < handles_.size(); ++h) {
-    const auto& [spec, samples, selected, thinned, path, start, places, remainders] = handles_[h];
-    const double share = spec->weight / total / thinned.areas.sum();
+    const PoseHandle& handle = handles_[h];
+    const std::vector<int>& selected = handle.selected;
+    const ThinnedSamples& thinned = handle.thinned;
+    const double share = handle.spec->weight / total / thinned.areas.sum();
     for (std::size_t k = 0; k < thinned.indices.size(); ++k, ++row) {
-      rest_.row(row) = samples->positions.row(thinned.indices[k]);
+      rest_.row(row) = handle.samples->positions.row(thinned.indices[k]);
       weights_[row] = share * thinned.areas[static_cast<Index>(k)];
       const auto at = std::lower_bound(selected.begin(), selected.end(), thinned.indices[k]);
       owners_.push_back({h, at - selected.begin()});

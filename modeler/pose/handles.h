@@ -22,6 +22,9 @@ struct HandlePath {
   Vec3 operator()(const Vec3& x, double share) const;
 };
 
+/// Who asked for a handle: the user, or a region that holds what is outside it.
+enum class HandleOrigin { user, region };
+
 /// A handle's surface samples and where they shall go, all in the scaled shape's coordinates.
 struct PoseHandle {
   const HandleSpec* spec = nullptr;
@@ -33,6 +36,9 @@ struct PoseHandle {
   Points start;       ///< where the way of each of `selected` begins; empty: at rest
   Points places;      ///< where `to` wants each of `selected`; else empty
   Points remainders;  ///< of the places, beyond where the path leads; else empty
+  HandleOrigin origin = HandleOrigin::user;
+
+  Points rest() const { return samples->positions(selected, Eigen::all); }
 
   Vec3 start_of(Index row) const;
   /// Where the selected sample of that row is after that share of the way.
@@ -47,6 +53,7 @@ struct HandleContext {
   Vec3 origin;
   double unit;          ///< length of the scaled shape's 1 [m]
   double sample_width;  ///< of the thinned samples, scaled
+  double hold_width;    ///< of those of what is held around a region
 
   /// In the user's coordinates: selections speak of them.
   SurfaceSamples restored(const SurfaceSamples& scaled) const;
@@ -61,10 +68,15 @@ std::vector<PoseHandle> make_handles(const std::vector<HandleSpec>& specs,
 /// Lets a handle's way begin at `start`, one a selected sample, instead of at rest.
 void begin_at(Points start, const HandleContext& context, PoseHandle& handle);
 
+/// Holds these samples of the surface, ascending, as `spec` says: what a region leaves out.
+PoseHandle make_hold(const HandleSpec& spec, std::vector<int> samples,
+                     const HandleContext& context);
+
 /// All handles' thinned samples in a row: rest points, weights ω_k and targets on the way.
 class HandleSamples {
  public:
-  /// ω_k = w_h · (area of k / area of the handle) / Σ w_h.
+  /// ω_k = w_h · (area of k / area of the handle) / Σ w_h; the sum is over the user's handles, so
+  /// that what a region holds leaves them their weight.
   explicit HandleSamples(std::vector<PoseHandle> handles);
 
   const Points& rest() const { return rest_; }

@@ -11,6 +11,8 @@
 #include "modeler/pose/handles.h"
 #include "modeler/pose/pose_measures.h"
 #include "modeler/pose/pose_solver.h"
+#include "modeler/pose/posed_field.h"
+#include "modeler/pose/scene_handles.h"
 #include "modeler/pose/solid_field.h"
 #include "modeler/pose/starting_pose.h"
 #include "modeler/pose/stiffness.h"
@@ -49,36 +51,6 @@ class Stages {
   const Progress& progress_;
   Report& report_;
   std::string name_;
-};
-
-/// How far apart handles are sampled, in spacings: hard ones shall be met between samples too.
-constexpr double handle_width = 0.5, hard_handle_width = 0.1;
-
-/// What handles are chosen from; owns the vertices where a handle speaks of them.
-struct HandleChoice {
-  SurfaceSamples vertices;
-  HandleContext context;
-
-  HandleChoice(const Mesh& mesh, const Solid& solid, const Scene& scene)
-      : vertices(vertices_of(solid, scene)),
-        context{{mesh, solid.triangulation(), solid.box(), scene.folder},
-                solid.surface(),
-                vertices,
-                solid.origin(),
-                solid.unit(),
-                (scene.pose->hard_handles ? hard_handle_width : handle_width) *
-                    solid.particles().spacing} {}
-  HandleChoice(const HandleChoice&) = delete;
-
- private:
-  static SurfaceSamples vertices_of(const Solid& solid, const Scene& scene) {
-    const bool needed = std::any_of(scene.pose->handles.begin(), scene.pose->handles.end(),
-                                    [](const HandleSpec& handle) { return handle.to.has_value(); });
-    if (!needed) return {};
-    const Triangles& triangles = solid.triangulation().triangles;
-    return triangles.rows() > 0 ? vertex_samples(solid.inner_vertices(), triangles)
-                                : solid.surface();
-  }
 };
 
 /// Books time on an active effect.
@@ -155,31 +127,57 @@ void check_files(const Mesh& mesh, const PoseSpec& spec, const PoseFiles& files)
 
 /// Fits the pose that the scene starts from, and lets the handles' ways begin there.
 std::optional<StartingPose> fit_start(const Solid& solid, const SolidField& field,
-                                      const PoseFiles& files, const HandleContext& context,
-                                      std::vector<PoseHandle>& handles, PoseResult& result) {
+                                      const PoseFiles& files, SceneHandles& chosen,
+                                      PoseResult& result) {
   if (!files.from) return {};
   const Stopwatch watch;
   StartingPose from = fit_pose(solid, field, solid.scaled(*files.from));
-  for (PoseHandle& handle : handles)
-    begin_at(carried(field, *handle.samples, handle.selected, from.u), context, handle);
+  chosen.begin_at(field, from.u);
   book(result.effects, "from", watch.seconds());
   return from;
 }
 
+/// Vertices outside the region keep every bit of where the pose starts; says what the blend did.
+void keep_outside(const RegionBlend& region, const Points& start, double taken_away,
+                  PoseResult& result) {
+  for (Index i = 0; i < start.rows(); ++i)
+    if (region.at(result.rest.positions.row(i).transpose()).value == 0)
+      result.mesh.positions.row(i) = start.row(i);
+  result.report.notes.push_back(
+      fmt::format("the blend at the region's edge takes {:.2g} % of the diagonal away at most",
+                  100 * taken_away));
+}
+
+/// The posed mesh. Added to the input rather than replacing it: what did not move keeps its last
+/// bit.
+DeformedSurface deform(const Solid& solid, const SolidField& field, const PosedField& posed,
+                       const PoseFiles& files, const std::optional<RegionBlend>& region,
+                       PoseResult& result) {
+  std::optional<Points> start;
+  if (files.from) start = solid.scaled(*files.from);
+  PosedSurface end = posed.surface(field.surface, result.rest.positions, start);
+  result.mesh = deform_mesh(result.rest, end.surface);
+  result.mesh.positions =
+      result.rest.positions + solid.unit() * (end.surface.positions - solid.inner_vertices());
+  if (region)
+    keep_outside(*region, files.from ? *files.from : result.rest.positions, end.taken_away, result);
+  return std::move(end.surface);
+}
+
 /// Points in the user's coordinates, carried as the surface is.
 DeformedSurface carry_points(const Solid& solid, const SolidField& field, SurfaceKind kind,
-                             const Points& u, const Points& rest) {
+                             const PosedField& posed, const Points& rest) {
   const Points x = solid.scaled(rest);
   const SurfaceEmbedding embedding(field.mls, field.quadrature, x, kind);
-  DeformedSurface carried = embedding.deform(u, solid.particles().volumes);
+  DeformedSurface carried = posed.surface(embedding, rest).surface;
   carried.positions = rest + solid.unit() * (carried.positions - x);
   return carried;
 }
 
-void fill_gaps(const Solid& solid, const SolidField& field, SurfaceKind kind, const Points& u,
-               PoseResult& result) {
+void fill_gaps(const Solid& solid, const SolidField& field, SurfaceKind kind,
+               const PosedField& posed, PoseResult& result) {
   FilledCloud filled = fill_gaps(result.rest, result.mesh, [&](const Points& rest) {
-    return carry_points(solid, field, kind, u, rest);
+    return carry_points(solid, field, kind, posed, rest);
   });
   result.report.notes.push_back(
       fmt::format("{} points fill gaps; they come after the {} of the "
@@ -189,6 +187,27 @@ void fill_gaps(const Solid& solid, const SolidField& field, SurfaceKind kind, co
     result.report.notes.push_back(fmt::format(
         "{} gaps between points stay open: the cloud would grow too large", filled.gaps));
   result.mesh = std::move(filled.deformed);
+}
+
+/// Takes particles and handles to the user's coordinates.
+void store(const Solid& solid, const HandleSamples& handles, const Points& u, PoseResult& result) {
+  result.particles = solid.particles();
+  result.particles.positions = solid.restored(solid.particles().positions);
+  result.particles.supports *= solid.unit();
+  result.particles.volumes *= std::pow(solid.unit(), 3);
+  result.particles.spacing *= solid.unit();
+  result.displacements = solid.unit() * u;
+  result.handle_rest = solid.restored(handles.rest());
+  result.handle_start = solid.restored(handles.start());
+  result.handle_targets = solid.restored(handles.targets(1));
+}
+
+void judge_thin(double share, Report& report) {
+  if (share > reason_limit(ReasonCode::thin))
+    report.degrade({ReasonCode::thin, 1, share,
+                    fmt::format("{:.0f} % of the surface is thinner than the particles can "
+                                "follow; more particles help",
+                                100 * share)});
 }
 
 }  // namespace
@@ -205,63 +224,43 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress,
 
   result.rest = sized(mesh, scene.shape);
   Solid solid = stages.run("sample", [&] { return Solid(result.rest, scene.shape); });
-  const HandleChoice choice(result.rest, solid, scene);
-  std::vector<PoseHandle> chosen = make_handles(spec.handles, files.targets, choice.context);
+  SceneHandles chosen(result.rest, solid, scene, files);
   double thin_share = 0;
   const std::unique_ptr<const SolidField> field = stages.run("field", [&] {
     thin_share = solid.choose_particle_supports(scene.shape);
     return std::make_unique<const SolidField>(solid, scene.shape, spec.surface);
   });
-
   book_coupling(result.effects, solid);
 
-  const std::optional<StartingPose> from =
-      fit_start(solid, *field, files, choice.context, chosen, result);
-  Points u = from ? from->u : Points::Zero(solid.particles().size(), 3);
-  const HandleSamples handles(std::move(chosen));
+  const std::optional<StartingPose> from = fit_start(solid, *field, files, chosen, result);
+  const Points start = from ? from->u : Points::Zero(solid.particles().size(), 3);
+  Points u = start;
+  const HandleSamples handles = chosen.take();
   if (handles.empty())
     result.report.notes.push_back(from ? "no handles: the shape stays as pose.from has it"
                                        : "no handles: the shape stays as it is");
   else
     result.report = stages.run("solve", [&] {
-      const Eigen::VectorXd factors = stiffness(spec, choice.context, solid, *field, result);
+      const Eigen::VectorXd factors = stiffness(spec, chosen.context(), solid, *field, result);
       return solve(solid, *field, handles, factors, spec, stages, result, u);
     });
   if (from) judge_start(*from, result.report);
 
-  const DeformedSurface surface = stages.run("deform", [&] {
-    DeformedSurface deformed = field->surface.deform(u, solid.particles().volumes);
-    result.mesh = deform_mesh(result.rest, deformed);
-    return deformed;
-  });
+  const PosedField posed(solid, *field, start, u, chosen.region());
+  const DeformedSurface surface = stages.run(
+      "deform", [&] { return deform(solid, *field, posed, files, chosen.region(), result); });
   book(result.effects, "surface", timing.seconds.back().second);
-  // Added to the input rather than replacing it: what did not move keeps its last bit.
-  result.mesh.positions =
-      result.rest.positions + solid.unit() * (surface.positions - solid.inner_vertices());
   if (spec.fill_gaps)
-    stages.run("fill gaps", [&] { fill_gaps(solid, *field, spec.surface, u, result); });
+    stages.run("fill gaps", [&] { fill_gaps(solid, *field, spec.surface, posed, result); });
 
-  result.particles = solid.particles();
-  result.particles.positions = solid.restored(solid.particles().positions);
-  result.particles.supports *= solid.unit();
-  result.particles.volumes *= std::pow(solid.unit(), 3);
-  result.particles.spacing *= solid.unit();
-  result.displacements = solid.unit() * u;
-  result.handle_rest = solid.restored(handles.rest());
-  result.handle_start = solid.restored(handles.start());
-  result.handle_targets = solid.restored(handles.targets(1));
-  measure_volume(solid, *field, u, surface, result);
-  measure_handles(*field, handles, u, result);
-
+  store(solid, handles, u, result);
+  measure_volume(solid, posed, surface, result);
+  measure_handles(posed, handles, result);
   const InversionCount inversion = worst_inversion(solid, *field, u, surface);
   result.min_det_F = inversion.min_det_F;
   result.report.seconds = timing.seconds;
   result.report.notes.insert(result.report.notes.end(), solid.notes().begin(), solid.notes().end());
-  if (thin_share > reason_limit(ReasonCode::thin))
-    result.report.degrade({ReasonCode::thin, 1, thin_share,
-                           fmt::format("{:.0f} % of the surface is thinner than the particles can "
-                                       "follow; more particles help",
-                                       100 * thin_share)});
+  judge_thin(thin_share, result.report);
   judge(solid, *field, spec, inversion, result);
   return result;
 }

@@ -10,8 +10,8 @@ namespace supple {
 namespace {
 
 /// How far each of a handle's surface samples is from where it was led.
-std::vector<double> misses(const SolidField& field, const PoseHandle& handle, const Points& u) {
-  const Points reached = carried(field, *handle.samples, handle.selected, u);
+std::vector<double> misses(const PosedField& posed, const PoseHandle& handle) {
+  const Points reached = posed.positions(handle.rest());
   std::vector<double> misses;
   for (Index row = 0; row < reached.rows(); ++row)
     misses.push_back((reached.row(row).transpose() - handle.target(row, 1)).norm());
@@ -20,15 +20,15 @@ std::vector<double> misses(const SolidField& field, const PoseHandle& handle, co
 
 }  // namespace
 
-void measure_handles(const SolidField& field, const HandleSamples& handles, const Points& u,
-                     PoseResult& result) {
+void measure_handles(const PosedField& posed, const HandleSamples& handles, PoseResult& result) {
   double all_squares = 0;
   std::size_t all_samples = 0;
   for (const PoseHandle& handle : handles.handles()) {
+    if (handle.origin != HandleOrigin::user) continue;
     HandleResidual residual{handle.spec->place, handle.spec->part(),
                             static_cast<int>(handle.selected.size()), 0, 0};
     double squares = 0;
-    for (const double miss : misses(field, handle, u)) {
+    for (const double miss : misses(posed, handle)) {
       residual.max_error = std::max(residual.max_error, miss);
       squares += miss * miss;
     }
@@ -42,12 +42,10 @@ void measure_handles(const SolidField& field, const HandleSamples& handles, cons
     result.handle_rms_error = std::sqrt(all_squares / static_cast<double>(all_samples));
 }
 
-void measure_volume(const Solid& solid, const SolidField& field, const Points& u,
-                    const DeformedSurface& surface, PoseResult& result) {
+void measure_volume(const Solid& solid, const PosedField& posed, const DeformedSurface& surface,
+                    PoseResult& result) {
   const CarriedBoundary& boundary = solid.boundary();
-  const Samples samples = sample_field(field.mls, boundary.extra, SampleContent::values);
-  Points extra(boundary.extra.rows(), 3);
-  for (Index k = 0; k < extra.rows(); ++k) extra.row(k) = samples.position(k, u).transpose();
+  const Points extra = posed.positions(boundary.extra);
   const double unit = std::pow(solid.unit(), 3);
   result.volume_before = unit * enclosed_volume(boundary, solid.vertices(), boundary.extra);
   const Points moved = solid.vertices() + surface.positions - solid.inner_vertices();

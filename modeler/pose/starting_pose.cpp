@@ -20,7 +20,7 @@ constexpr int rounds = 8;
 constexpr double vertex_width_over_spacing = 0.125;
 
 /// A fine surface has millions of samples: their rows are built for so many at a time.
-constexpr std::size_t samples_at_a_time = 16384;
+constexpr Index points_at_a_time = 16384;
 
 /// The vertices that the fit looks at, each with how many it stands for.
 ThinnedSamples vertices_to_fit(const Solid& solid) {
@@ -86,18 +86,13 @@ StartingPose fit_pose(const Solid& solid, const SolidField& field, const Points&
   return pose;
 }
 
-Points carried(const SolidField& field, const SurfaceSamples& samples,
-               const std::vector<int>& numbers, const Points& u) {
-  Points carried(static_cast<Index>(numbers.size()), 3);
-  for (std::size_t begin = 0; begin < numbers.size(); begin += samples_at_a_time) {
-    const std::size_t count = std::min(samples_at_a_time, numbers.size() - begin);
-    const std::vector<int> some(numbers.begin() + std::ptrdiff_t(begin),
-                                numbers.begin() + std::ptrdiff_t(begin + count));
+Points carried(const SolidField& field, const Points& points, const Points& u) {
+  Points carried(points.rows(), 3);
+  for (Index begin = 0; begin < points.rows(); begin += points_at_a_time) {
+    const Index count = std::min(points_at_a_time, points.rows() - begin);
     const Samples rows =
-        sample_field(field.mls, samples.positions(some, Eigen::all), SampleContent::values);
-    for (std::size_t k = 0; k < count; ++k)
-      carried.row(static_cast<Index>(begin + k)) =
-          rows.position(static_cast<Index>(k), u).transpose();
+        sample_field(field.mls, points.middleRows(begin, count), SampleContent::values);
+    for (Index k = 0; k < count; ++k) carried.row(begin + k) = rows.position(k, u).transpose();
   }
   return carried;
 }

@@ -16,8 +16,7 @@ struct StartingPose {
 /// regularisation by Σ V |∇u|², which leaves no trace where the vertices say enough.
 StartingPose fit_pose(const Solid& solid, const SolidField& field, const Points& posed);
 
-/// Where the field with displacements `u` takes the samples of these numbers, a row each.
-Points carried(const SolidField& field, const SurfaceSamples& samples,
-               const std::vector<int>& numbers, const Points& u);
+/// Where the field with displacements `u` takes points [scaled coordinates], however many.
+Points carried(const SolidField& field, const Points& points, const Points& u);
 
 }  // namespace supple

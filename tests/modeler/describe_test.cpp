@@ -50,7 +50,7 @@ using AllOptions =
                    ParticleSamplingOptions, VolumeSampleOptions, SelfIntersectionOptions,
                    OctreeOptions, OctreeParticleOptions, CellQuadratureOptions, Camera,
                    PictureOptions, ShapeSpec, TurnSpec, HandleSpec, PoseWeights, StiffnessSpec,
-                   PoseSpec, Scene>;
+                   MirrorSpec, PoseSpec, Scene>;
 TYPED_TEST_SUITE(EveryOptions, AllOptions);
 
 TYPED_TEST(EveryOptions, DescribesItsMembersWithinTheirBounds) {

@@ -119,6 +119,21 @@ TEST_F(ProgramTest, GoesOnFromAnotherPose) {
   EXPECT_EQ(pose_bar({"--from", "none.obj"}).code, 3);
 }
 
+TEST_F(ProgramTest, MovesNothingOutsideARegion) {
+  EXPECT_EQ(run({"pose", "bar.obj", "--particles", "60", "--region", "y>30%", "--region-blend",
+                 "8%", "--move", "y>90%", "--by", "10%,0,0", "-o", "posed.obj"})
+                .code,
+            0);
+  const Points rest = read_mesh(folder / "bar.obj").positions;
+  const Points posed = read_mesh(folder / "posed.obj").positions;
+  for (Index i = 0; i < rest.rows(); ++i)
+    EXPECT_TRUE(rest(i, 1) > 0.3 || rest.row(i) == posed.row(i)) << i;
+  EXPECT_GT((posed - rest).col(0).maxCoeff(), 0.09);
+  expect_usage_error(pose_bar({"--region", "y>30%"}), "'y<10%' lies outside pose.region 'y>30%'");
+  expect_usage_error(pose_bar({"--region", "y"}), "--region y");
+  expect_usage_error(pose_bar({"--region-blend", "8%"}), "pose.region is missing");
+}
+
 TEST_F(ProgramTest, LeadsVerticesToTheirPlaces) {
   EXPECT_EQ(pose_bar({"--by", "10%,0,0"}).code, 0);
   EXPECT_EQ(run({"pose", "bar.obj", "--particles", "60", "--fix", "y<10%", "--move", "y>90%",

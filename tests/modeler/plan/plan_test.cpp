@@ -35,6 +35,7 @@ TEST(Plan, NamesTheLineThatCausedEachEffect) {
             "+ quadrature: quadrature is auto, the default\n"
             "+ coupling: coupling is inside, the default\n"
             "- from: pose.from is not given: the way starts at rest\n"
+            "- region: pose.region is not given: all may move\n"
             "+ handles: scene.yaml:4:7: fix y<10% weight 2; "
             "scene.yaml:6:7: move y>90% by 10%,0,0 turn 0,0,1,30\n"
             "+ rigidity: weights.rigidity is 1, the default\n"
@@ -81,6 +82,15 @@ TEST(Plan, NamesFilesOfPoses) {
     EXPECT_NE(plan_of(scene).find(line), std::string::npos) << plan_of(scene);
 }
 
+TEST(Plan, NamesTheRegion) {
+  const std::string scene =
+      "shape: {mesh: bar.obj}\npose:\n  region: y>1\n  region_blend: 5%\n  handles: [{fix: y>2}]\n";
+  EXPECT_NE(plan_of(scene).find("+ region: scene.yaml:3:11: nothing outside y>1 moves; the pose "
+                                "sets in over 5%\n"),
+            std::string::npos)
+      << plan_of(scene);
+}
+
 TEST(Plan, WithoutHandlesNothingIsSolved) {
   Scene scene;
   scene.pose.emplace();
@@ -99,6 +109,7 @@ TEST(Plan, OfTheArmadilloScene) {
             "+ quadrature: quadrature is auto, the default\n"
             "+ coupling: coupling is inside, the default\n"
             "- from: pose.from is not given: the way starts at rest\n"
+            "- region: pose.region is not given: all may move\n"
             "+ handles: " +
                 where + ":10:7: fix y<8%; " + where +
                 ":11:7: move y>85% and x>25% and x<75% by 15%,-5%,0 turn 0,0,1,-35\n"
