@@ -73,6 +73,14 @@ void SceneArguments::declare(CommandLine& line) {
               [this](const std::string& value) {
                 knobs_.push_back({"--region " + value, "pose.region", quoted_yaml(value)});
               });
+  line.option("--mirror", {"NX,NY,NZ", "let handles act on the other side of this plane too"},
+              [this](const std::string& value) {
+                knobs_.push_back({"--mirror " + value, "pose.mirror.normal", "[" + value + "]"});
+              });
+  line.option("--mirror-at", {"X,Y,Z", "point of that plane; default: the box's centre"},
+              [this](const std::string& value) {
+                knobs_.push_back({"--mirror-at " + value, "pose.mirror.at", "[" + value + "]"});
+              });
   line.begin_group("Shape");
   declare_knobs<ShapeSpec>(line, "shape", "--");
   line.begin_group("Pose");

@@ -134,9 +134,21 @@ void add_region(const PoseSpec& pose, std::vector<Effect>& effects) {
                                to_string(pose.region->place), pose.region->text, width)));
 }
 
+void add_mirror(const PoseSpec& pose, std::vector<Effect>& effects) {
+  if (!pose.mirror) {
+    effects.push_back(off("mirror", "pose.mirror is not given: handles act where they are"));
+    return;
+  }
+  const Vec3& n = pose.mirror->normal;
+  effects.push_back(
+      on("mirror", fmt::format("{}: handles act on both sides of the plane across {},{},{}",
+                               to_string(pose.mirror->place), n[0], n[1], n[2])));
+}
+
 void add_solving(const PoseSpec& pose, std::vector<Effect>& effects) {
   add_from(pose, effects);
   add_region(pose, effects);
+  add_mirror(pose, effects);
   if (pose.handles.empty()) {
     for (const char* name :
          {"handles", "rigidity", "volume", "stiffness", "substeps", "hard_handles"})

@@ -56,19 +56,6 @@ HandlePath rigid_path(const Points& start, const Points& places, const Eigen::Ve
   return path;
 }
 
-void find_path(const HandleContext& context, PoseHandle& handle) {
-  const Points start = start_of(handle);
-  const Eigen::VectorXd areas = areas_of(handle);
-  if (handle.places.rows() == 0) {
-    handle.path = make_path(*handle.spec, start.transpose() * areas / areas.sum(), context);
-    return;
-  }
-  handle.path = rigid_path(start, handle.places, areas);
-  handle.remainders = handle.places;
-  for (Index row = 0; row < start.rows(); ++row)
-    handle.remainders.row(row) -= handle.path(start.row(row).transpose(), 1).transpose();
-}
-
 void check_on_surface(const NamedFile& file, const std::vector<int>& listed,
                       const std::vector<int>& on_surface) {
   for (const int vertex : listed)
@@ -103,6 +90,19 @@ void choose_vertices(const HandleSpec& spec, const VertexPlaces& listed,
 
 }  // namespace
 
+void find_path(const HandleContext& context, PoseHandle& handle) {
+  const Points start = handle.mirror ? handle.mirror->points(start_of(handle)) : start_of(handle);
+  const Eigen::VectorXd areas = areas_of(handle);
+  if (handle.places.rows() == 0) {
+    handle.path = make_path(*handle.spec, start.transpose() * areas / areas.sum(), context);
+    return;
+  }
+  handle.path = rigid_path(start, handle.places, areas);
+  handle.remainders = handle.places;
+  for (Index row = 0; row < start.rows(); ++row)
+    handle.remainders.row(row) -= handle.path(start.row(row).transpose(), 1).transpose();
+}
+
 Vec3 HandlePath::operator()(const Vec3& x, double share) const {
   const Vec3 stretch = Vec3::Ones() + share * (scale - Vec3::Ones());
   const Vec3 scaled = center + stretch.cwiseProduct(x - center);
@@ -118,6 +118,7 @@ Vec3 PoseHandle::start_of(Index row) const {
 Vec3 PoseHandle::target(Index row, double share) const {
   const Vec3 x = start_of(row);
   if (spec->fix) return x;  // stays to the last bit
+  if (mirror) return mirror->point(path(mirror->point(x), share));
   const Vec3 led = path(x, share);
   return remainders.rows() > 0 ? Vec3(led + share * remainders.row(row).transpose()) : led;
 }
@@ -169,7 +170,7 @@ HandleSamples::HandleSamples(std::vector<PoseHandle> handles) : handles_(std::mo
   double total = 0;
   for (const PoseHandle& handle : handles_) {
     count += handle.thinned.indices.size();
-    if (handle.origin == HandleOrigin::user) total += handle.spec->weight;
+    if (handle.origin != HandleOrigin::region) total += handle.spec->weight;
   }
   rest_.resize(static_cast<Index>(count), 3);
   weights_.resize(static_cast<Index>(count));

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "io/mesh/vertex_places.h"
 #include "io/scene/pose_spec.h"
 #include "modeler/domain/select.h"
 #include "modeler/domain/surface_samples.h"
+#include "modeler/pose/mirror_plane.h"
 
 namespace supple {
 
@@ -22,8 +24,8 @@ struct HandlePath {
   Vec3 operator()(const Vec3& x, double share) const;
 };
 
-/// Who asked for a handle: the user, or a region that holds what is outside it.
-enum class HandleOrigin { user, region };
+/// Where a handle comes from: the user, its mirror image, or a region that holds what is outside.
+enum class HandleOrigin { user, mirror, region };
 
 /// A handle's surface samples and where they shall go, all in the scaled shape's coordinates.
 struct PoseHandle {
@@ -36,6 +38,7 @@ struct PoseHandle {
   Points start;       ///< where the way of each of `selected` begins; empty: at rest
   Points places;      ///< where `to` wants each of `selected`; else empty
   Points remainders;  ///< of the places, beyond where the path leads; else empty
+  std::optional<MirrorPlane> mirror;  ///< the path is that of the images
   HandleOrigin origin = HandleOrigin::user;
 
   Points rest() const { return samples->positions(selected, Eigen::all); }
@@ -64,6 +67,9 @@ struct HandleContext {
 std::vector<PoseHandle> make_handles(const std::vector<HandleSpec>& specs,
                                      const std::vector<VertexPlaces>& targets,
                                      const HandleContext& context);
+
+/// The path of a handle from where it starts, once its samples are chosen.
+void find_path(const HandleContext& context, PoseHandle& handle);
 
 /// Lets a handle's way begin at `start`, one a selected sample, instead of at rest.
 void begin_at(Points start, const HandleContext& context, PoseHandle& handle);

@@ -9,6 +9,7 @@
 #include "io/scene/complaint.h"
 #include "modeler/plan/plan.h"
 #include "modeler/pose/handles.h"
+#include "modeler/pose/mirrored_handle.h"
 #include "modeler/pose/pose_measures.h"
 #include "modeler/pose/pose_solver.h"
 #include "modeler/pose/posed_field.h"
@@ -137,6 +138,27 @@ std::optional<StartingPose> fit_start(const Solid& solid, const SolidField& fiel
   return from;
 }
 
+/// Beyond this share of the diagonal a shape is not symmetric but for rounding.
+constexpr double symmetric = 1e-6;
+
+/// The plane that the pose is symmetric about: that of the mirror where shape and scene are. Says
+/// how far the shape is from it.
+std::optional<MirrorPlane> find_symmetry(const Solid& solid, const PoseSpec& spec,
+                                         const std::optional<MirrorPlane>& mirror,
+                                         PoseResult& result) {
+  if (!mirror) return {};
+  const Stopwatch watch;
+  const double miss = asymmetry(solid, *mirror);
+  book(result.effects, "mirror", watch.seconds());
+  const bool scene_is_symmetric = !spec.from && spec.stiffness.empty() && !spec.region;
+  const bool made = miss < symmetric && scene_is_symmetric;
+  result.report.notes.push_back(
+      fmt::format("the shape is symmetric about pose.mirror to {:.2g} % of the diagonal{}",
+                  100 * miss, made ? ": the pose is made so too" : ""));
+  if (!made) return {};
+  return mirror;
+}
+
 /// Vertices outside the region keep every bit of where the pose starts; says what the blend did.
 void keep_outside(const RegionBlend& region, const Points& start, double taken_away,
                   PoseResult& result) {
@@ -246,7 +268,8 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress,
     });
   if (from) judge_start(*from, result.report);
 
-  const PosedField posed(solid, *field, start, u, chosen.region());
+  const std::optional<MirrorPlane> symmetry = find_symmetry(solid, spec, chosen.mirror(), result);
+  const PosedField posed(solid, *field, start, u, chosen.region(), symmetry, spec.surface);
   const DeformedSurface surface = stages.run(
       "deform", [&] { return deform(solid, *field, posed, files, chosen.region(), result); });
   book(result.effects, "surface", timing.seconds.back().second);

@@ -18,14 +18,19 @@ std::vector<double> misses(const PosedField& posed, const PoseHandle& handle) {
   return misses;
 }
 
+std::string shown_part(const PoseHandle& handle) {
+  const std::string& part = handle.spec->part();
+  return handle.origin == HandleOrigin::mirror ? part + ", mirrored" : part;
+}
+
 }  // namespace
 
 void measure_handles(const PosedField& posed, const HandleSamples& handles, PoseResult& result) {
   double all_squares = 0;
   std::size_t all_samples = 0;
   for (const PoseHandle& handle : handles.handles()) {
-    if (handle.origin != HandleOrigin::user) continue;
-    HandleResidual residual{handle.spec->place, handle.spec->part(),
+    if (handle.origin == HandleOrigin::region) continue;
+    HandleResidual residual{handle.spec->place, shown_part(handle),
                             static_cast<int>(handle.selected.size()), 0, 0};
     double squares = 0;
     for (const double miss : misses(posed, handle)) {

@@ -1,10 +1,12 @@
 #include "modeler/pose/scene_handles.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "io/scene/complaint.h"
+#include "modeler/pose/mirrored_handle.h"
 #include "modeler/pose/starting_pose.h"
 
 namespace supple {
@@ -59,11 +61,21 @@ SceneHandles::SceneHandles(const Mesh& rest, const Solid& solid, const Scene& sc
           handle_width * solid.particles().spacing} {
   const PoseSpec& spec = *scene.pose;
   handles_ = make_handles(spec.handles, files.targets, context_);
+  if (spec.mirror) mirror_ = scaled_plane(*spec.mirror, solid);
+  if (spec.mirror) add_mirrored();
   if (!spec.region) return;
   region_.emplace(*spec.region, resolved_blend(spec, context_, solid.particles().spacing),
                   context_.selection, context_.restored(context_.surface));
   check_within_region(spec);
   leave_to_region(spec);
+}
+
+void SceneHandles::add_mirrored() {
+  std::vector<PoseHandle> mirrored;
+  for (const PoseHandle& handle : handles_)
+    if (std::optional<PoseHandle> image = mirrored_handle(handle, *mirror_, context_))
+      mirrored.push_back(std::move(*image));
+  std::move(mirrored.begin(), mirrored.end(), std::back_inserter(handles_));
 }
 
 void SceneHandles::check_within_region(const PoseSpec& spec) const {

@@ -23,6 +23,9 @@ class SceneHandles {
   /// None where all may move.
   const std::optional<RegionBlend>& region() const { return region_; }
 
+  /// None where handles act where they are alone; in scaled coordinates.
+  const std::optional<MirrorPlane>& mirror() const { return mirror_; }
+
   /// Lets the handles' ways begin where the field with displacements `u` has them.
   void begin_at(const SolidField& field, const Points& u);
 
@@ -30,12 +33,14 @@ class SceneHandles {
   HandleSamples take() { return HandleSamples(std::move(handles_)); }
 
  private:
+  void add_mirrored();
   void leave_to_region(const PoseSpec& spec);
   void check_within_region(const PoseSpec& spec) const;
 
   SurfaceSamples vertices_;  ///< where a handle speaks of them
   HandleContext context_;
   std::vector<PoseHandle> handles_;
+  std::optional<MirrorPlane> mirror_;
   std::optional<RegionBlend> region_;
   HandleSpec hold_;  ///< of what lies outside the region
 };

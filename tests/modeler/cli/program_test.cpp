@@ -134,6 +134,20 @@ TEST_F(ProgramTest, MovesNothingOutsideARegion) {
   expect_usage_error(pose_bar({"--region-blend", "8%"}), "pose.region is missing");
 }
 
+TEST_F(ProgramTest, MirrorsHandles) {
+  EXPECT_EQ(run({"pose", "bar.obj", "--particles", "60", "--mirror", "0,1,0", "--fix", "y:45%..55%",
+                 "--move", "y>90%", "--by", "10%,0,0", "-o", "posed.obj", "--report", "r.json"})
+                .code,
+            0);
+  EXPECT_EQ(json("r.json")["handles"]["each"].size(), 3u);
+  const Points rest = read_mesh(folder / "bar.obj").positions;
+  const Points moved = read_mesh(folder / "posed.obj").positions - rest;
+  for (Index i = 0; i < rest.rows(); ++i)
+    EXPECT_TRUE(std::abs(rest(i, 1) - 0.5) < 0.45 || moved(i, 0) > 0.08) << i;
+  expect_usage_error(pose_bar({"--mirror", "0,0,0"}), "--mirror 0,0,0");
+  expect_usage_error(pose_bar({"--mirror-at", "0,0,0"}), "pose.mirror.normal is missing");
+}
+
 TEST_F(ProgramTest, LeadsVerticesToTheirPlaces) {
   EXPECT_EQ(pose_bar({"--by", "10%,0,0"}).code, 0);
   EXPECT_EQ(run({"pose", "bar.obj", "--particles", "60", "--fix", "y<10%", "--move", "y>90%",

@@ -36,6 +36,7 @@ TEST(Plan, NamesTheLineThatCausedEachEffect) {
             "+ coupling: coupling is inside, the default\n"
             "- from: pose.from is not given: the way starts at rest\n"
             "- region: pose.region is not given: all may move\n"
+            "- mirror: pose.mirror is not given: handles act where they are\n"
             "+ handles: scene.yaml:4:7: fix y<10% weight 2; "
             "scene.yaml:6:7: move y>90% by 10%,0,0 turn 0,0,1,30\n"
             "+ rigidity: weights.rigidity is 1, the default\n"
@@ -91,6 +92,15 @@ TEST(Plan, NamesTheRegion) {
       << plan_of(scene);
 }
 
+TEST(Plan, NamesTheMirror) {
+  const std::string scene =
+      "shape: {mesh: bar.obj}\npose:\n  mirror: {normal: [1, 0, 0]}\n  handles: [{fix: y>2}]\n";
+  EXPECT_NE(plan_of(scene).find("+ mirror: scene.yaml:3:11: handles act on both sides of the "
+                                "plane across 1,0,0\n"),
+            std::string::npos)
+      << plan_of(scene);
+}
+
 TEST(Plan, WithoutHandlesNothingIsSolved) {
   Scene scene;
   scene.pose.emplace();
@@ -110,6 +120,7 @@ TEST(Plan, OfTheArmadilloScene) {
             "+ coupling: coupling is inside, the default\n"
             "- from: pose.from is not given: the way starts at rest\n"
             "- region: pose.region is not given: all may move\n"
+            "- mirror: pose.mirror is not given: handles act where they are\n"
             "+ handles: " +
                 where + ":10:7: fix y<8%; " + where +
                 ":11:7: move y>85% and x>25% and x<75% by 15%,-5%,0 turn 0,0,1,-35\n"
