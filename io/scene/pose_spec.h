@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "io/scene/named_file.h"
 #include "io/scene/quantity.h"
 #include "io/scene/selection.h"
 #include "solver/core/describe.h"
@@ -29,19 +30,24 @@ struct TurnSpec {
 /// A part of the surface that is held, or led to another place.
 struct HandleSpec {
   Place place;
-  std::optional<Selection> fix;  ///< exactly one of fix and move is given
+  std::optional<Selection> fix;  ///< exactly one of fix and move is given; neither: all in `to`
   std::optional<Selection> move;
+  std::optional<NamedFile> to;  ///< places of vertices, instead of by, turn and scale
   LengthVector by{};
   std::optional<TurnSpec> turn;
   Vec3 scale = Vec3::Ones();  ///< about the selection's centre
   double weight = 1;
 
-  const Selection& selection() const { return fix ? *fix : *move; }
+  /// What it holds or leads, as the user wrote it.
+  const std::string& part() const { return fix ? fix->text : move ? move->text : to->path; }
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     visit("fix", self.fix, {.doc = "part of the surface that stays where it is"});
     visit("move", self.move, {.doc = "part of the surface that is led to another place"});
+    visit("to", self.to,
+          {.doc = "where each vertex of what is moved goes: a mesh or cloud of the same vertices, "
+                  "or text with a line `number x y z` for each, which needs no move"});
     visit("by", self.by, {.doc = "displacement of what is moved", .unit = "length"});
     visit("turn", self.turn, {.doc = "turn of what is moved"});
     visit("scale", self.scale,
@@ -90,6 +96,20 @@ struct StiffnessSpec {
   }
 };
 
+/// A plane that every handle acts on both sides of.
+struct MirrorSpec {
+  Place place;
+  Vec3 normal = Vec3::UnitX();
+  std::optional<LengthVector> at;
+
+  template <class Self, class Visitor>
+  static void describe(Self& self, Visitor&& visit) {
+    visit("normal", self.normal, {.doc = "across the plane, any length but 0"});
+    visit("at", self.at,
+          {.doc = "point of the plane; default: the centre of the shape's box", .unit = "length"});
+  }
+};
+
 enum class SurfaceKind { field, particle_gradients };
 EnumNames<SurfaceKind> enum_names(SurfaceKind);
 
@@ -97,8 +117,12 @@ EnumNames<SurfaceKind> enum_names(SurfaceKind);
 struct PoseSpec {
   Place place;
   std::vector<HandleSpec> handles;
+  std::optional<NamedFile> from;
   PoseWeights weights;
   std::vector<StiffnessSpec> stiffness;
+  std::optional<Selection> region;
+  std::optional<Length> region_blend;
+  std::optional<MirrorSpec> mirror;
   MinimizerKind solver = MinimizerKind::lbfgs;
   bool hard_handles = false;
   int max_iterations = 2000;
@@ -110,9 +134,22 @@ struct PoseSpec {
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
     visit("handles", self.handles, {.doc = "parts of the surface that are fixed or moved"});
+    visit("from", self.from,
+          {.doc = "the shape in another pose, where the handles' way starts: what is fixed is held "
+                  "as it is there; selections and energies speak of the rest shape"});
     visit("weights", self.weights, {.doc = "weights of the energies"});
     visit("stiffness", self.stiffness,
           {.doc = "parts whose rigidity and volume terms weigh more than the rest's"});
+    visit("region", self.region,
+          {.doc = "part of the shape that may move: vertices outside it keep every bit"});
+    visit("region_blend", self.region_blend,
+          {.doc = "width inside the region over which the pose sets in smoothly; default: two "
+                  "spacings of the particles",
+           .unit = "length",
+           .min = 0,
+           .exclusive_min = true});
+    visit("mirror", self.mirror,
+          {.doc = "plane: every handle acts mirrored on its other side too"});
     visit("solver", self.solver, {.doc = "minimiser"});
     visit("hard_handles", self.hard_handles,
           {.doc = "true: handles are met exactly, as far as the particles can and they do not "

@@ -148,6 +148,11 @@ void read_value(std::string& value, const SceneItem& item, const Described&) {
   value = text;
 }
 
+void read_value(NamedFile& value, const SceneItem& item, const Described& described) {
+  read_value(value.path, item, described);
+  value.place = item.place;
+}
+
 void read_value(Length& value, const SceneItem& item, const Described& described) {
   const std::string& text = scalar_text(item, "a length, as 0.3 or 30%");
   value = parse_length(text, item.place, item.path);

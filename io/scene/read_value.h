@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/scene/complaint.h"
+#include "io/scene/named_file.h"
 #include "io/scene/scene_rules.h"
 #include "io/scene/selection.h"
 #include "io/scene/yaml_tree.h"
@@ -21,6 +22,7 @@ void read_value(std::string& value, const SceneItem& item, const Described& desc
 void read_value(Length& value, const SceneItem& item, const Described& described);
 void read_value(LengthVector& value, const SceneItem& item, const Described& described);
 void read_value(Vec3& value, const SceneItem& item, const Described& described);
+void read_value(NamedFile& value, const SceneItem& item, const Described& described);
 void read_value(Selection& value, const SceneItem& item, const Described& described);
 
 /// The text of a scalar; `expected` says what should stand there, for the message.

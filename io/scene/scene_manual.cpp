@@ -32,7 +32,8 @@ pose:
   diagonal (`30%`).
 - A **point** with a percent in it is measured from the centre of the shape's bounding box. Points
   and vectors mix percents and other numbers only where those are 0.
-- Paths are relative to the scene file.
+- Paths are relative to the scene file. Files with places of vertices (`from`, `to`) have the
+  coordinates of the posed shape: with `shape.size`, those of the scaled one.
 - `--set pose.handles[1].weight=2` on the command line replaces a value; the value is YAML.
 
 ## Selections
@@ -103,6 +104,8 @@ std::string type_of(const Described& described) {
     return "length";
   else if constexpr (std::is_same_v<T, LengthVector>)
     return "list of 3 lengths";
+  else if constexpr (std::is_same_v<T, NamedFile>)
+    return "file";
   else if constexpr (std::is_same_v<T, Selection>)
     return "selection";
   else if constexpr (std::is_same_v<T, Vec3>)

@@ -17,11 +17,6 @@ std::span<const std::string_view> later_keys(const ShapeSpec&) {
   return keys;
 }
 
-std::span<const std::string_view> later_keys(const PoseSpec&) {
-  static constexpr std::array<std::string_view, 1> keys{"region"};
-  return keys;
-}
-
 void check_rules(const Scene& scene, const SceneItem& item) {
   if (scene.pose && !find_item(item, "shape"))
     complain(scene.pose->place,
@@ -43,21 +38,34 @@ void check_rules(const PoseSpec& pose, const SceneItem& item) {
   if (pose.hard_handles && pose.solver == MinimizerKind::trust_region)
     complain(find_item(item, "hard_handles")->place,
              "pose.hard_handles: true, with solver: trust_region; allowed: with lbfgs, nlopt");
+  if (pose.region_blend && !pose.region)
+    complain(find_item(item, "region_blend")->place,
+             "pose.region_blend: pose.region is missing; allowed: only with it");
+}
+
+[[noreturn]] static void complain_beside_fix(const SceneItem& movement) {
+  complain(movement.place, fmt::format("{} stands beside fix, which holds its part in place; "
+                                       "allowed: only with move",
+                                       movement.path));
 }
 
 void check_rules(const HandleSpec& handle, const SceneItem& item) {
-  if (!handle.fix && !handle.move)
+  if (!handle.fix && !handle.move && !handle.to)
     complain(item.place,
              fmt::format("{}: fix or move is missing; allowed: one of them", item.path));
   if (handle.fix && handle.move)
     complain(find_item(item, "move")->place,
              fmt::format("{}: fix and move are both given; allowed: one of them", item.path));
-  if (!handle.fix) return;
-  for (const std::string_view key : {"by", "turn", "scale"})
-    if (const auto movement = find_item(item, key))
-      complain(movement->place, fmt::format("{} stands beside fix, which holds its part in "
-                                            "place; allowed: only with move",
-                                            movement->path));
+  if (handle.to && handle.fix) complain_beside_fix(*find_item(item, "to"));
+  for (const std::string_view key : {"by", "turn", "scale"}) {
+    const auto movement = find_item(item, key);
+    if (movement && handle.fix) complain_beside_fix(*movement);
+    if (movement && handle.to)
+      complain(movement->place,
+               fmt::format("{} stands beside to, which says where each vertex goes; allowed: one "
+                           "of them",
+                           movement->path));
+  }
 }
 
 void check_rules(const TurnSpec& turn, const SceneItem& item) {
@@ -72,6 +80,14 @@ void check_rules(const StiffnessSpec&, const SceneItem& item) {
   for (const std::string_view key : {"select", "times"})
     if (!find_item(item, key))
       complain(item.place, fmt::format("{}.{} is missing", item.path, key));
+}
+
+void check_rules(const MirrorSpec& mirror, const SceneItem& item) {
+  if (!find_item(item, "normal"))
+    complain(item.place, fmt::format("{}.normal is missing", item.path));
+  if (mirror.normal.squaredNorm() == 0)
+    complain(find_item(item, "normal")->place,
+             fmt::format("{}.normal = 0, must have a length", item.path));
 }
 
 }  // namespace supple

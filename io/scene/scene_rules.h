@@ -11,7 +11,6 @@ namespace supple {
 // Keys of the scene language that this version does not read yet: "not available yet".
 std::span<const std::string_view> later_keys(const Scene&);
 std::span<const std::string_view> later_keys(const ShapeSpec&);
-std::span<const std::string_view> later_keys(const PoseSpec&);
 template <class T>
 std::span<const std::string_view> later_keys(const T&) {
   return {};
@@ -23,6 +22,7 @@ void check_rules(const ShapeSpec& shape, const SceneItem& item);
 void check_rules(const PoseSpec& pose, const SceneItem& item);
 void check_rules(const HandleSpec& handle, const SceneItem& item);
 void check_rules(const TurnSpec& turn, const SceneItem& item);
+void check_rules(const MirrorSpec& mirror, const SceneItem& item);
 void check_rules(const StiffnessSpec& stiffness, const SceneItem& item);
 template <class T>
 void check_rules(const T&, const SceneItem&) {}

@@ -25,6 +25,12 @@ void HandleArguments::declare(CommandLine& line) {
                        bind(&HandleArguments::add_fix));
   line.repeated_option("--move", {"SELECTION", "lead this part of the surface elsewhere"},
                        bind(&HandleArguments::add_move));
+  line.repeated_option(
+      "--to",
+      {"FILE",
+       "lead each vertex of the --move before it to its place in FILE: a mesh or cloud of the same "
+       "vertices, or text with lines \"number x y z\""},
+      bind(&HandleArguments::set_to));
   line.repeated_option("--by",
                        {"X,Y,Z", "displacement of the --move before it, in file units or percent"},
                        bind(&HandleArguments::set_by));
@@ -44,10 +50,19 @@ std::vector<HandleSpec> HandleArguments::take() {
     if (draft.about && !draft.handle.turn)
       throw UsageError(fmt::format("--about: its {} has no --turn", draft.handle.place.file));
     if (draft.about) draft.handle.turn->about = draft.about;
+    check_to(draft);
     handles.push_back(std::move(draft.handle));
   }
   drafts_.clear();
   return handles;
+}
+
+void HandleArguments::check_to(const Draft& draft) {
+  if (!draft.handle.to) return;
+  for (const std::string& option : draft.given)
+    if (option == "--by" || option == "--turn" || option == "--scale")
+      throw UsageError(fmt::format("{}: {} stands beside it; allowed: one of them",
+                                   draft.handle.to->place.file, option));
 }
 
 void HandleArguments::add_fix(const std::string& selection) {
@@ -64,6 +79,11 @@ void HandleArguments::add_move(const std::string& selection) {
 
 void HandleArguments::set_by(const std::string& value) {
   last_move("--by", value).handle.by = parse_length_vector(value, place_of("--by", value));
+}
+
+void HandleArguments::set_to(const std::string& value) {
+  Draft& draft = last_move("--to", value);
+  draft.handle.to = NamedFile{absolute_path(value), place_of("--to", value)};
 }
 
 void HandleArguments::set_turn(const std::string& value) {

@@ -8,7 +8,8 @@
 
 namespace supple {
 
-/// --fix, --move and what binds to the --move before it: --by, --turn, --scale, --about, --weight.
+/// --fix, --move and what binds to the --move before it: --to, --by, --turn, --scale, --about,
+/// --weight.
 class HandleArguments {
  public:
   /// Declares the options; `*this` must outlive the parsing.
@@ -26,8 +27,10 @@ class HandleArguments {
     std::vector<std::string> given;
   };
 
+  static void check_to(const Draft& draft);
   void add_fix(const std::string& selection);
   void add_move(const std::string& selection);
+  void set_to(const std::string& value);
   void set_by(const std::string& value);
   void set_turn(const std::string& value);
   void set_scale(const std::string& value);

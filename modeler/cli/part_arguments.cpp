@@ -8,14 +8,23 @@
 namespace supple {
 
 void PartArguments::declare(CommandLine& line) {
-  line.begin_group("Parts");
+  line.begin_group("Beside handles");
+  line.option("--from", {"FILE", "the shape in another pose, where the handles' way starts"},
+              [this](const std::string& value) {
+                from_ = NamedFile{absolute_path(value), {"--from " + value}};
+              });
   line.repeated_option("--stiffen", {"SELECTION", "make this part stiffer, with its inside"},
                        [this](const std::string& value) { add_stiffness(value); });
   line.repeated_option("--times", {"N", "how many times as stiff the --stiffen before it is"},
                        [this](const std::string& value) { set_times(value); });
 }
 
+bool PartArguments::given() const {
+  return !stiffness_.empty() || from_;
+}
+
 void PartArguments::give(PoseSpec& pose) const {
+  if (from_) pose.from = from_;
   if (with_times_ < stiffness_.size())
     throw UsageError(fmt::format("{}: --times is missing behind it, as in --times 5",
                                  stiffness_.back().place.file));

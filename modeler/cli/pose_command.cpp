@@ -7,6 +7,7 @@
 #include "modeler/cli/interrupt.h"
 #include "modeler/cli/likely_size.h"
 #include "modeler/cli/pose_arguments.h"
+#include "modeler/cli/pose_files_reader.h"
 #include "modeler/cli/progress_line.h"
 #include "modeler/cli/report_json.h"
 #include "modeler/cli/summary.h"
@@ -28,12 +29,13 @@ Mesh read_shape(const Scene& scene) {
   return points_of(std::move(shape));
 }
 
-PoseResult solve(const Mesh& shape, const Scene& scene, ProgressLine& line) {
+PoseResult solve(const Mesh& shape, const Scene& scene, const PoseFiles& files,
+                 ProgressLine& line) {
   const Progress progress = [&](const std::string& stage, double share) {
     line.show(stage, share);
     return InterruptWatch::signal() == 0;
   };
-  PoseResult result = pose(shape, scene, progress);
+  PoseResult result = pose(shape, scene, progress, files);
   line.clear();
   for (std::string& note : size_notes(result.rest, scene.shape))
     result.report.notes.push_back(std::move(note));
@@ -46,7 +48,7 @@ std::vector<Markers> handle_markers(const Points& points, const PoseResult& resu
   std::vector<Index> held, moved;
   const double still = 1e-9 * bounding_box(result.rest.positions).diagonal();
   for (Index i = 0; i < points.rows(); ++i) {
-    const double way = (result.handle_targets.row(i) - result.handle_rest.row(i)).norm();
+    const double way = (result.handle_targets.row(i) - result.handle_start.row(i)).norm();
     (way <= still ? held : moved).push_back(i);
   }
   return {{points(held, Eigen::all), held_color}, {points(moved, Eigen::all), moved_color}};
@@ -115,6 +117,7 @@ int run_pose(Words words) {
   arguments.check_outputs();
   line.show("load", 0);
   const Mesh shape = read_shape(scene);
+  const PoseFiles files = read_pose_files(scene, shape.positions.rows());
   run.load_seconds = watch.seconds();
 
   const auto write_report = [&] {
@@ -122,7 +125,7 @@ int run_pose(Words words) {
     if (!arguments.report.empty()) write_text(report_json(run), arguments.report);
   };
   try {
-    run.result = solve(shape, scene, line);
+    run.result = solve(shape, scene, files, line);
   } catch (const ShapeError& error) {
     run.failure = error.what();
     write_report();

@@ -38,6 +38,13 @@ std::string with_dashes(std::string name) {
   return name;
 }
 
+/// Text that YAML takes as it is.
+std::string quoted_yaml(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
 /// What the help shows for a value of type T.
 template <class T>
 std::string value_form() {
@@ -62,6 +69,18 @@ void SceneArguments::declare(CommandLine& line) {
       [this](const std::string& value) { path_ = value; });
   handles_.declare(line);
   parts_.declare(line);
+  line.option("--region", {"SELECTION", "move nothing outside this part; see --region-blend"},
+              [this](const std::string& value) {
+                knobs_.push_back({"--region " + value, "pose.region", quoted_yaml(value)});
+              });
+  line.option("--mirror", {"NX,NY,NZ", "let handles act on the other side of this plane too"},
+              [this](const std::string& value) {
+                knobs_.push_back({"--mirror " + value, "pose.mirror.normal", "[" + value + "]"});
+              });
+  line.option("--mirror-at", {"X,Y,Z", "point of that plane; default: the box's centre"},
+              [this](const std::string& value) {
+                knobs_.push_back({"--mirror-at " + value, "pose.mirror.at", "[" + value + "]"});
+              });
   line.begin_group("Shape");
   declare_knobs<ShapeSpec>(line, "shape", "--");
   line.begin_group("Pose");

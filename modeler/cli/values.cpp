@@ -1,6 +1,7 @@
 #include "modeler/cli/values.h"
 
 #include <charconv>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -40,6 +41,10 @@ std::vector<double> parse_numbers(const std::string& text, std::string_view opti
     start = end + 1;
   }
   return numbers;
+}
+
+std::string absolute_path(const std::string& path) {
+  return std::filesystem::absolute(path).string();
 }
 
 }  // namespace supple

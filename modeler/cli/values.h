@@ -19,4 +19,7 @@ int parse_count(const std::string& text, std::string_view option, int least, int
 std::vector<double> parse_numbers(const std::string& text, std::string_view option,
                                   std::string_view form);
 
+/// A file of the command line, whatever folder the scene is in: relative to the working folder.
+std::string absolute_path(const std::string& path);
+
 }  // namespace supple

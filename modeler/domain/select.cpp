@@ -100,9 +100,7 @@ class Selector {
 
   Mask compare(const Selection& selection) const {
     const int axis = selection.axis;
-    double bound = selection.bound.value;
-    if (selection.bound.unit == Length::Unit::percent)
-      bound = context_.box.lower[axis] + 0.01 * bound * context_.box.size()[axis];
+    const double bound = resolve_bound(selection, context_.box);
     return where([&](Index i) {
       const double x = samples_.positions(i, axis);
       switch (selection.order) {
@@ -172,6 +170,12 @@ class Selector {
 };
 
 }  // namespace
+
+double resolve_bound(const Selection& half_space, const Box& box) {
+  const double bound = half_space.bound.value;
+  if (half_space.bound.unit != Length::Unit::percent) return bound;
+  return box.lower[half_space.axis] + 0.01 * bound * box.size()[half_space.axis];
+}
 
 std::vector<char> select_mask(const Selection& selection, const SelectionContext& context,
                               const SurfaceSamples& samples) {

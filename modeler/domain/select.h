@@ -18,6 +18,9 @@ struct SelectionContext {
   std::filesystem::path folder;  ///< that vertices(file) is relative to
 };
 
+/// The bound of a half-space along its axis; percents are of `box` along it.
+double resolve_bound(const Selection& half_space, const Box& box);
+
 /// Indices of the samples inside `selection`, ascending. vertices(file) takes the samples whose
 /// nearest corner is listed, group(name) those in faces of that group; nearest(x,y,z) the one
 /// sample nearest to that point.

@@ -165,6 +165,27 @@ SurfaceSamples sample_surface(const Points& positions, const Triangles& triangle
   return result;
 }
 
+SurfaceSamples vertex_samples(const Points& positions, const Triangles& triangles) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(positions.rows());
+  std::vector<int> owners(static_cast<std::size_t>(positions.rows()), -1);
+  for (Index t = 0; t < triangles.rows(); ++t) {
+    const Vec3 a = positions.row(triangles(t, 0)), b = positions.row(triangles(t, 1)),
+               c = positions.row(triangles(t, 2));
+    for (const int vertex : triangles.row(t)) {
+      areas[vertex] += (b - a).cross(c - a).norm() / 6;
+      owners[static_cast<std::size_t>(vertex)] = static_cast<int>(t);
+    }
+  }
+  SurfaceSamples result;
+  for (Index i = 0; i < positions.rows(); ++i)
+    if (areas[i] > 0) result.vertices.push_back(static_cast<int>(i));
+  result.positions = positions(result.vertices, Eigen::all);
+  result.areas = areas(result.vertices);
+  for (const int vertex : result.vertices)
+    result.triangles.push_back(owners[static_cast<std::size_t>(vertex)]);
+  return result;
+}
+
 SurfaceSamples point_samples(const Points& positions, const Eigen::VectorXd& areas) {
   SUPPLE_CHECK(areas.size() == positions.rows(), "each point needs an area");
   const auto count = static_cast<std::size_t>(positions.rows());

@@ -21,6 +21,9 @@ struct SurfaceSamples {
 SurfaceSamples sample_surface(const Points& positions, const Triangles& triangles,
                               double max_width);
 
+/// The vertices that triangles use, each with a third of the area of those around it.
+SurfaceSamples vertex_samples(const Points& positions, const Triangles& triangles);
+
 /// A point cloud as it is: each point stands for its own area [m²].
 SurfaceSamples point_samples(const Points& positions, const Eigen::VectorXd& areas);
 

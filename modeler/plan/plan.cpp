@@ -31,7 +31,7 @@ bool moves(const HandleSpec& handle) {
   const auto is_zero = [](const Length& length) { return length.value == 0; };
   const bool displaced = !std::all_of(handle.by.begin(), handle.by.end(), is_zero);
   const bool turned = handle.turn && handle.turn->degrees != 0;
-  return handle.move && (displaced || turned || handle.scale != Vec3::Ones());
+  return handle.to || (handle.move && (displaced || turned || handle.scale != Vec3::Ones()));
 }
 
 std::string with_commas(const std::string& a, const std::string& b, const std::string& c) {
@@ -48,7 +48,8 @@ std::string described(const HandleSpec& handle) {
     return with_commas(to_string(v[0]), to_string(v[1]), to_string(v[2]));
   };
   const LengthVector nowhere{};
-  std::string text = fmt::format("{} {}", handle.fix ? "fix" : "move", handle.selection().text);
+  std::string text = fmt::format("{} {}", handle.fix ? "fix" : "move", handle.part());
+  if (handle.to && handle.move) text += " to " + handle.to->path;
   if (lengths(handle.by) != lengths(nowhere)) text += " by " + lengths(handle.by);
   if (handle.turn) {
     text += fmt::format(" turn {},{}", vector(handle.turn->axis), handle.turn->degrees);
@@ -115,7 +116,39 @@ void add_hard_handles(const PoseSpec& pose, std::vector<Effect>& effects) {
   effects.push_back(pose.hard_handles ? on("hard_handles", why) : off("hard_handles", why));
 }
 
+void add_from(const PoseSpec& pose, std::vector<Effect>& effects) {
+  effects.push_back(pose.from
+                        ? on("from", fmt::format("{}: the way starts at {}",
+                                                 to_string(pose.from->place), pose.from->path))
+                        : off("from", "pose.from is not given: the way starts at rest"));
+}
+
+void add_region(const PoseSpec& pose, std::vector<Effect>& effects) {
+  if (!pose.region) {
+    effects.push_back(off("region", "pose.region is not given: all may move"));
+    return;
+  }
+  const std::string width = pose.region_blend ? to_string(*pose.region_blend) : "two spacings";
+  effects.push_back(
+      on("region", fmt::format("{}: nothing outside {} moves; the pose sets in over {}",
+                               to_string(pose.region->place), pose.region->text, width)));
+}
+
+void add_mirror(const PoseSpec& pose, std::vector<Effect>& effects) {
+  if (!pose.mirror) {
+    effects.push_back(off("mirror", "pose.mirror is not given: handles act where they are"));
+    return;
+  }
+  const Vec3& n = pose.mirror->normal;
+  effects.push_back(
+      on("mirror", fmt::format("{}: handles act on both sides of the plane across {},{},{}",
+                               to_string(pose.mirror->place), n[0], n[1], n[2])));
+}
+
 void add_solving(const PoseSpec& pose, std::vector<Effect>& effects) {
+  add_from(pose, effects);
+  add_region(pose, effects);
+  add_mirror(pose, effects);
   if (pose.handles.empty()) {
     for (const char* name :
          {"handles", "rigidity", "volume", "stiffness", "substeps", "hard_handles"})

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "io/mesh/vertex_places.h"
 #include "io/scene/pose_spec.h"
 #include "modeler/domain/select.h"
 #include "modeler/domain/surface_samples.h"
+#include "modeler/pose/mirror_plane.h"
 
 namespace supple {
 
@@ -21,49 +24,89 @@ struct HandlePath {
   Vec3 operator()(const Vec3& x, double share) const;
 };
 
-/// A handle's surface samples and where they shall go. Lengths are in the same unit as `samples`.
+/// Where a handle comes from: the user, its mirror image, or a region that holds what is outside.
+enum class HandleOrigin { user, mirror, region };
+
+/// A handle's surface samples and where they shall go, all in the scaled shape's coordinates.
 struct PoseHandle {
-  const HandleSpec* spec;
-  std::vector<int> selected;  ///< all surface samples inside the selection
+  const HandleSpec* spec = nullptr;
+  const SurfaceSamples* samples =
+      nullptr;                ///< that it is chosen from: the surface's, or its vertices
+  std::vector<int> selected;  ///< all of these that it holds or leads, ascending
   ThinnedSamples thinned;     ///< those that the energy sees, with their area
   HandlePath path;
-  bool moves = false;  ///< else it stays where it is
+  Points start;       ///< where the way of each of `selected` begins; empty: at rest
+  Points places;      ///< where `to` wants each of `selected`; else empty
+  Points remainders;  ///< of the places, beyond where the path leads; else empty
+  std::optional<MirrorPlane> mirror;  ///< the path is that of the images
+  HandleOrigin origin = HandleOrigin::user;
+
+  Points rest() const { return samples->positions(selected, Eigen::all); }
+
+  Vec3 start_of(Index row) const;
+  /// Where the selected sample of that row is after that share of the way.
+  Vec3 target(Index row, double share) const;
 };
 
 /// What handles are chosen from: a shape scaled by 1/`unit` about `origin`.
 struct HandleContext {
-  SelectionContext selection;            ///< in the user's coordinates
-  const SurfaceSamples& samples;         ///< in the user's coordinates: selections speak of them
-  const SurfaceSamples& scaled_samples;  ///< the same, scaled
+  SelectionContext selection;      ///< in the user's coordinates
+  const SurfaceSamples& surface;   ///< scaled
+  const SurfaceSamples& vertices;  ///< scaled, with their area; needed where handles have `to`
   Vec3 origin;
   double unit;          ///< length of the scaled shape's 1 [m]
   double sample_width;  ///< of the thinned samples, scaled
+  double hold_width;    ///< of those of what is held around a region
+
+  /// In the user's coordinates: selections speak of them.
+  SurfaceSamples restored(const SurfaceSamples& scaled) const;
 };
 
-/// Errors: UsageError for a selection that selects nothing.
+/// `targets`: what the handles' `to` files say [user's coordinates], one a handle.
+/// Errors: UsageError for a selection that selects nothing, a listed vertex off the surface.
 std::vector<PoseHandle> make_handles(const std::vector<HandleSpec>& specs,
+                                     const std::vector<VertexPlaces>& targets,
                                      const HandleContext& context);
+
+/// The path of a handle from where it starts, once its samples are chosen.
+void find_path(const HandleContext& context, PoseHandle& handle);
+
+/// Lets a handle's way begin at `start`, one a selected sample, instead of at rest.
+void begin_at(Points start, const HandleContext& context, PoseHandle& handle);
+
+/// Holds these samples of the surface, ascending, as `spec` says: what a region leaves out.
+PoseHandle make_hold(const HandleSpec& spec, std::vector<int> samples,
+                     const HandleContext& context);
 
 /// All handles' thinned samples in a row: rest points, weights ω_k and targets on the way.
 class HandleSamples {
  public:
-  /// ω_k = w_h · (area of k / area of the handle) / Σ w_h.
-  HandleSamples(std::vector<PoseHandle> handles, const Points& surface_points);
+  /// ω_k = w_h · (area of k / area of the handle) / Σ w_h; the sum is over the user's handles, so
+  /// that what a region holds leaves them their weight.
+  explicit HandleSamples(std::vector<PoseHandle> handles);
 
   const Points& rest() const { return rest_; }
   const Eigen::VectorXd& weights() const { return weights_; }
+  Points start() const;
   Points targets(double share) const;
+  /// The same into `out`, which is allocated only where its size changes.
   void targets(double share, Points& out) const;
 
-  /// Gives a handle another way; it moves then, also where it was fixed.
-  void lead(std::size_t handle, const HandlePath& path);
+  /// Gives a handle that moves along a path another one.
+  void lead(std::size_t handle, const HandlePath& path) { handles_[handle].path = path; }
 
   bool empty() const { return rest_.rows() == 0; }
   const std::vector<PoseHandle>& handles() const { return handles_; }
 
  private:
+  /// The handle of a sample, and its row there.
+  struct Owner {
+    std::size_t handle;
+    Index row;
+  };
+
   std::vector<PoseHandle> handles_;
-  std::vector<int> owners_;  ///< the handle of each sample
+  std::vector<Owner> owners_;  ///< of each sample
   Points rest_;
   Eigen::VectorXd weights_;
 };

@@ -1,5 +1,6 @@
 #include "modeler/pose/pose.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -8,12 +9,17 @@
 #include "io/scene/complaint.h"
 #include "modeler/plan/plan.h"
 #include "modeler/pose/handles.h"
+#include "modeler/pose/mirrored_handle.h"
 #include "modeler/pose/pose_measures.h"
 #include "modeler/pose/pose_solver.h"
+#include "modeler/pose/posed_field.h"
+#include "modeler/pose/scene_handles.h"
 #include "modeler/pose/solid_field.h"
+#include "modeler/pose/starting_pose.h"
 #include "modeler/pose/stiffness.h"
 #include "modeler/surface/deform_mesh.h"
 #include "modeler/surface/fill_gaps.h"
+#include "solver/core/check.h"
 #include "solver/core/stopwatch.h"
 
 namespace supple {
@@ -48,29 +54,6 @@ class Stages {
   std::string name_;
 };
 
-/// How far apart handles are sampled, in spacings: hard ones shall be met between samples too.
-constexpr double handle_width = 0.5, hard_handle_width = 0.1;
-
-/// The surface in the user's coordinates: selections speak of them.
-SurfaceSamples restored_surface(const Solid& solid) {
-  SurfaceSamples samples = solid.surface();
-  samples.positions = solid.restored(samples.positions);
-  return samples;
-}
-
-HandleSamples choose_handles(const SelectionContext& selection, const Solid& solid,
-                             const Scene& scene) {
-  const SurfaceSamples samples = restored_surface(solid);
-  const HandleContext context{
-      selection,
-      samples,
-      solid.surface(),
-      solid.origin(),
-      solid.unit(),
-      (scene.pose->hard_handles ? hard_handle_width : handle_width) * solid.particles().spacing};
-  return {make_handles(scene.pose->handles, context), solid.surface().positions};
-}
-
 /// Books time on an active effect.
 void book(std::vector<Effect>& effects, const std::string& name, double seconds) {
   for (Effect& effect : effects)
@@ -88,12 +71,13 @@ void book_coupling(std::vector<Effect>& effects, const Solid& solid) {
 }
 
 /// The parts' factors at the points where energies are summed; empty without such parts.
-Eigen::VectorXd stiffness(const PoseSpec& spec, const SelectionContext& selection,
-                          const Solid& solid, const SolidField& field, PoseResult& result) {
+Eigen::VectorXd stiffness(const PoseSpec& spec, const HandleContext& context, const Solid& solid,
+                          const SolidField& field, PoseResult& result) {
   if (spec.stiffness.empty()) return {};
   const Stopwatch watch;
-  Eigen::VectorXd factors = stiffness_factors(spec.stiffness, selection, restored_surface(solid),
-                                              solid.restored(field.points.points));
+  Eigen::VectorXd factors =
+      stiffness_factors(spec.stiffness, context.selection, context.restored(context.surface),
+                        solid.restored(field.points.points));
   book(result.effects, "stiffness", watch.seconds());
   return factors;
 }
@@ -127,20 +111,95 @@ void check_fill_gaps(const Mesh& mesh, const PoseSpec& spec) {
     complain(spec.place, "pose.fill_gaps: the shape has faces; allowed: with a point cloud");
 }
 
+void check_files(const Mesh& mesh, const PoseSpec& spec, const PoseFiles& files) {
+  SUPPLE_CHECK(spec.from.has_value() == files.from.has_value(), "pose.from is loaded");
+  SUPPLE_CHECK(files.targets.empty() || files.targets.size() == spec.handles.size(),
+               "targets are loaded, one a handle");
+  if (!files.from) return;
+  if (files.from->rows() != mesh.positions.rows())
+    complain(spec.from->place,
+             fmt::format("pose.from: {} has {} vertices, the shape {}; allowed: another pose of "
+                         "the same vertices",
+                         spec.from->path, files.from->rows(), mesh.positions.rows()));
+  if (!files.from->allFinite())
+    complain(spec.from->place,
+             fmt::format("pose.from: {} has a number that is not finite", spec.from->path));
+}
+
+/// Fits the pose that the scene starts from, and lets the handles' ways begin there.
+std::optional<StartingPose> fit_start(const Solid& solid, const SolidField& field,
+                                      const PoseFiles& files, SceneHandles& chosen,
+                                      PoseResult& result) {
+  if (!files.from) return {};
+  const Stopwatch watch;
+  StartingPose from = fit_pose(solid, field, solid.scaled(*files.from));
+  chosen.begin_at(field, from.u);
+  book(result.effects, "from", watch.seconds());
+  return from;
+}
+
+/// Beyond this share of the diagonal a shape is not symmetric but for rounding.
+constexpr double symmetric = 1e-6;
+
+/// The plane that the pose is symmetric about: that of the mirror where shape and scene are. Says
+/// how far the shape is from it.
+std::optional<MirrorPlane> find_symmetry(const Solid& solid, const PoseSpec& spec,
+                                         const std::optional<MirrorPlane>& mirror,
+                                         PoseResult& result) {
+  if (!mirror) return {};
+  const Stopwatch watch;
+  const double miss = asymmetry(solid, *mirror);
+  book(result.effects, "mirror", watch.seconds());
+  const bool scene_is_symmetric = !spec.from && spec.stiffness.empty() && !spec.region;
+  const bool made = miss < symmetric && scene_is_symmetric;
+  result.report.notes.push_back(
+      fmt::format("the shape is symmetric about pose.mirror to {:.2g} % of the diagonal{}",
+                  100 * miss, made ? ": the pose is made so too" : ""));
+  if (!made) return {};
+  return mirror;
+}
+
+/// Vertices outside the region keep every bit of where the pose starts; says what the blend did.
+void keep_outside(const RegionBlend& region, const Points& start, double taken_away,
+                  PoseResult& result) {
+  for (Index i = 0; i < start.rows(); ++i)
+    if (region.at(result.rest.positions.row(i).transpose()).value == 0)
+      result.mesh.positions.row(i) = start.row(i);
+  result.report.notes.push_back(
+      fmt::format("the blend at the region's edge takes {:.2g} % of the diagonal away at most",
+                  100 * taken_away));
+}
+
+/// The posed mesh. Added to the input rather than replacing it: what did not move keeps its last
+/// bit.
+DeformedSurface deform(const Solid& solid, const SolidField& field, const PosedField& posed,
+                       const PoseFiles& files, const std::optional<RegionBlend>& region,
+                       PoseResult& result) {
+  std::optional<Points> start;
+  if (files.from) start = solid.scaled(*files.from);
+  PosedSurface end = posed.surface(field.surface, result.rest.positions, start);
+  result.mesh = deform_mesh(result.rest, end.surface);
+  result.mesh.positions =
+      result.rest.positions + solid.unit() * (end.surface.positions - solid.inner_vertices());
+  if (region)
+    keep_outside(*region, files.from ? *files.from : result.rest.positions, end.taken_away, result);
+  return std::move(end.surface);
+}
+
 /// Points in the user's coordinates, carried as the surface is.
 DeformedSurface carry_points(const Solid& solid, const SolidField& field, SurfaceKind kind,
-                             const Points& u, const Points& rest) {
+                             const PosedField& posed, const Points& rest) {
   const Points x = solid.scaled(rest);
   const SurfaceEmbedding embedding(field.mls, field.quadrature, x, kind);
-  DeformedSurface carried = embedding.deform(u, solid.particles().volumes);
+  DeformedSurface carried = posed.surface(embedding, rest).surface;
   carried.positions = rest + solid.unit() * (carried.positions - x);
   return carried;
 }
 
-void fill_gaps(const Solid& solid, const SolidField& field, SurfaceKind kind, const Points& u,
-               PoseResult& result) {
+void fill_gaps(const Solid& solid, const SolidField& field, SurfaceKind kind,
+               const PosedField& posed, PoseResult& result) {
   FilledCloud filled = fill_gaps(result.rest, result.mesh, [&](const Points& rest) {
-    return carry_points(solid, field, kind, u, rest);
+    return carry_points(solid, field, kind, posed, rest);
   });
   result.report.notes.push_back(
       fmt::format("{} points fill gaps; they come after the {} of the "
@@ -152,49 +211,8 @@ void fill_gaps(const Solid& solid, const SolidField& field, SurfaceKind kind, co
   result.mesh = std::move(filled.deformed);
 }
 
-}  // namespace
-
-PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) {
-  PoseResult result;
-  Report timing;
-  Stages stages(progress, timing);
-  const PoseSpec& spec = *scene.pose;
-  check_fill_gaps(mesh, spec);
-  result.effects = make_plan(scene).effects;
-
-  result.rest = sized(mesh, scene.shape);
-  Solid solid = stages.run("sample", [&] { return Solid(result.rest, scene.shape); });
-  const SelectionContext selection{result.rest, solid.triangulation(), solid.box(), scene.folder};
-  const HandleSamples handles = choose_handles(selection, solid, scene);
-  double thin_share = 0;
-  const std::unique_ptr<const SolidField> field = stages.run("field", [&] {
-    thin_share = solid.choose_particle_supports(scene.shape);
-    return std::make_unique<const SolidField>(solid, scene.shape, spec.surface);
-  });
-
-  book_coupling(result.effects, solid);
-
-  Points u = Points::Zero(solid.particles().size(), 3);
-  if (handles.empty())
-    result.report.notes.push_back("no handles: the shape stays as it is");
-  else
-    result.report = stages.run("solve", [&] {
-      const Eigen::VectorXd factors = stiffness(spec, selection, solid, *field, result);
-      return solve(solid, *field, handles, factors, spec, stages, result, u);
-    });
-
-  const DeformedSurface surface = stages.run("deform", [&] {
-    DeformedSurface deformed = field->surface.deform(u, solid.particles().volumes);
-    result.mesh = deform_mesh(result.rest, deformed);
-    return deformed;
-  });
-  book(result.effects, "surface", timing.seconds.back().second);
-  // Added to the input rather than replacing it: what did not move keeps its last bit.
-  result.mesh.positions =
-      result.rest.positions + solid.unit() * (surface.positions - solid.inner_vertices());
-  if (spec.fill_gaps)
-    stages.run("fill gaps", [&] { fill_gaps(solid, *field, spec.surface, u, result); });
-
+/// Takes particles and handles to the user's coordinates.
+void store(const Solid& solid, const HandleSamples& handles, const Points& u, PoseResult& result) {
   result.particles = solid.particles();
   result.particles.positions = solid.restored(solid.particles().positions);
   result.particles.supports *= solid.unit();
@@ -202,19 +220,70 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress) 
   result.particles.spacing *= solid.unit();
   result.displacements = solid.unit() * u;
   result.handle_rest = solid.restored(handles.rest());
+  result.handle_start = solid.restored(handles.start());
   result.handle_targets = solid.restored(handles.targets(1));
-  measure_volume(solid, *field, u, surface, result);
-  measure_handles(solid, *field, handles, u, result);
+}
 
+void judge_thin(double share, Report& report) {
+  if (share > reason_limit(ReasonCode::thin))
+    report.degrade({ReasonCode::thin, 1, share,
+                    fmt::format("{:.0f} % of the surface is thinner than the particles can "
+                                "follow; more particles help",
+                                100 * share)});
+}
+
+}  // namespace
+
+PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress,
+                const PoseFiles& files) {
+  PoseResult result;
+  Report timing;
+  Stages stages(progress, timing);
+  const PoseSpec& spec = *scene.pose;
+  check_fill_gaps(mesh, spec);
+  check_files(mesh, spec, files);
+  result.effects = make_plan(scene).effects;
+
+  result.rest = sized(mesh, scene.shape);
+  Solid solid = stages.run("sample", [&] { return Solid(result.rest, scene.shape); });
+  SceneHandles chosen(result.rest, solid, scene, files);
+  double thin_share = 0;
+  const std::unique_ptr<const SolidField> field = stages.run("field", [&] {
+    thin_share = solid.choose_particle_supports(scene.shape);
+    return std::make_unique<const SolidField>(solid, scene.shape, spec.surface);
+  });
+  book_coupling(result.effects, solid);
+
+  const std::optional<StartingPose> from = fit_start(solid, *field, files, chosen, result);
+  const Points start = from ? from->u : Points::Zero(solid.particles().size(), 3);
+  Points u = start;
+  const HandleSamples handles = chosen.take();
+  if (handles.empty())
+    result.report.notes.push_back(from ? "no handles: the shape stays as pose.from has it"
+                                       : "no handles: the shape stays as it is");
+  else
+    result.report = stages.run("solve", [&] {
+      const Eigen::VectorXd factors = stiffness(spec, chosen.context(), solid, *field, result);
+      return solve(solid, *field, handles, factors, spec, stages, result, u);
+    });
+  if (from) judge_start(*from, result.report);
+
+  const std::optional<MirrorPlane> symmetry = find_symmetry(solid, spec, chosen.mirror(), result);
+  const PosedField posed(solid, *field, start, u, chosen.region(), symmetry, spec.surface);
+  const DeformedSurface surface = stages.run(
+      "deform", [&] { return deform(solid, *field, posed, files, chosen.region(), result); });
+  book(result.effects, "surface", timing.seconds.back().second);
+  if (spec.fill_gaps)
+    stages.run("fill gaps", [&] { fill_gaps(solid, *field, spec.surface, posed, result); });
+
+  store(solid, handles, u, result);
+  measure_volume(solid, posed, surface, result);
+  measure_handles(posed, handles, result);
   const InversionCount inversion = worst_inversion(solid, *field, u, surface);
   result.min_det_F = inversion.min_det_F;
   result.report.seconds = timing.seconds;
   result.report.notes.insert(result.report.notes.end(), solid.notes().begin(), solid.notes().end());
-  if (thin_share > reason_limit(ReasonCode::thin))
-    result.report.degrade({ReasonCode::thin, 1, thin_share,
-                           fmt::format("{:.0f} % of the surface is thinner than the particles can "
-                                       "follow; more particles help",
-                                       100 * thin_share)});
+  judge_thin(thin_share, result.report);
   judge(solid, *field, spec, inversion, result);
   return result;
 }

@@ -7,6 +7,7 @@
 #include "io/mesh/mesh.h"
 #include "io/scene/scene.h"
 #include "modeler/plan/effect.h"
+#include "modeler/pose/pose_files.h"
 #include "solver/core/report.h"
 #include "solver/core/rest_shape.h"
 
@@ -27,6 +28,7 @@ struct PoseResult {
   Points displacements;   ///< u_i [m], n×3
   Points handle_targets;  ///< where the handles were led, for pictures [m]
   Points handle_rest;     ///< where they were at rest [m]
+  Points handle_start;    ///< where their way began: at rest, or in pose.from [m]
   std::vector<HandleResidual> handles;
   double handle_max_error = 0, handle_rms_error = 0;  ///< over the diagonal
   double volume_before = 0, volume_after = 0;         ///< of the region [m³]
@@ -46,6 +48,8 @@ using Progress = std::function<bool(const std::string& stage, double share)>;
 
 /// Deforms `mesh` as `scene.pose` asks: sample, field, solve, deform. See the stages in pose.cpp.
 /// Errors: UsageError (a selection that selects nothing ...), ShapeError, Interrupted.
-PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress = {});
+/// `files` holds what those hold that the pose names, if it names any.
+PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress = {},
+                const PoseFiles& files = {});
 
 }  // namespace supple

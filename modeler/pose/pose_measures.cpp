@@ -9,37 +9,31 @@
 namespace supple {
 namespace {
 
-/// A fine surface has millions of samples: their rows are built for so many at a time.
-constexpr std::size_t samples_at_a_time = 16384;
-
 /// How far each of a handle's surface samples is from where it was led.
-std::vector<double> misses(const Solid& solid, const SolidField& field, const PoseHandle& handle,
-                           const Points& u) {
+std::vector<double> misses(const PosedField& posed, const PoseHandle& handle) {
+  const Points reached = posed.positions(handle.rest());
   std::vector<double> misses;
-  misses.reserve(handle.selected.size());
-  for (std::size_t begin = 0; begin < handle.selected.size(); begin += samples_at_a_time) {
-    const std::size_t count = std::min(samples_at_a_time, handle.selected.size() - begin);
-    Points rest(static_cast<Index>(count), 3);
-    for (std::size_t k = 0; k < count; ++k)
-      rest.row(static_cast<Index>(k)) = solid.surface().positions.row(handle.selected[begin + k]);
-    const Samples samples = sample_field(field.mls, rest, SampleContent::values);
-    for (Index k = 0; k < rest.rows(); ++k)
-      misses.push_back((samples.position(k, u) - handle.path(rest.row(k).transpose(), 1)).norm());
-  }
+  for (Index row = 0; row < reached.rows(); ++row)
+    misses.push_back((reached.row(row).transpose() - handle.target(row, 1)).norm());
   return misses;
+}
+
+std::string shown_part(const PoseHandle& handle) {
+  const std::string& part = handle.spec->part();
+  return handle.origin == HandleOrigin::mirror ? part + ", mirrored" : part;
 }
 
 }  // namespace
 
-void measure_handles(const Solid& solid, const SolidField& field, const HandleSamples& handles,
-                     const Points& u, PoseResult& result) {
+void measure_handles(const PosedField& posed, const HandleSamples& handles, PoseResult& result) {
   double all_squares = 0;
   std::size_t all_samples = 0;
   for (const PoseHandle& handle : handles.handles()) {
-    HandleResidual residual{handle.spec->place, handle.spec->selection().text,
+    if (handle.origin == HandleOrigin::region) continue;
+    HandleResidual residual{handle.spec->place, shown_part(handle),
                             static_cast<int>(handle.selected.size()), 0, 0};
     double squares = 0;
-    for (const double miss : misses(solid, field, handle, u)) {
+    for (const double miss : misses(posed, handle)) {
       residual.max_error = std::max(residual.max_error, miss);
       squares += miss * miss;
     }
@@ -53,12 +47,10 @@ void measure_handles(const Solid& solid, const SolidField& field, const HandleSa
     result.handle_rms_error = std::sqrt(all_squares / static_cast<double>(all_samples));
 }
 
-void measure_volume(const Solid& solid, const SolidField& field, const Points& u,
-                    const DeformedSurface& surface, PoseResult& result) {
+void measure_volume(const Solid& solid, const PosedField& posed, const DeformedSurface& surface,
+                    PoseResult& result) {
   const CarriedBoundary& boundary = solid.boundary();
-  const Samples samples = sample_field(field.mls, boundary.extra, SampleContent::values);
-  Points extra(boundary.extra.rows(), 3);
-  for (Index k = 0; k < extra.rows(); ++k) extra.row(k) = samples.position(k, u).transpose();
+  const Points extra = posed.positions(boundary.extra);
   const double unit = std::pow(solid.unit(), 3);
   result.volume_before = unit * enclosed_volume(boundary, solid.vertices(), boundary.extra);
   const Points moved = solid.vertices() + surface.positions - solid.inner_vertices();
@@ -119,6 +111,17 @@ void judge_cover(const Solid& solid, const SolidField& field, Report& report) {
 constexpr double notable_volume_change = 0.05;
 
 }  // namespace
+
+void judge_start(const StartingPose& from, Report& report) {
+  const double percent = 100 * from.miss;
+  report.notes.push_back(
+      fmt::format("pose.from is met to {:.2g} % of the diagonal at its vertices", percent));
+  if (from.miss > reason_limit(ReasonCode::from_miss))
+    report.degrade({ReasonCode::from_miss, 1, from.miss,
+                    fmt::format("the particles cannot take pose.from: a vertex of it is missed by "
+                                "{:.2g} % of the diagonal; more particles may help",
+                                percent)});
+}
 
 void judge(const Solid& solid, const SolidField& field, const PoseSpec& spec,
            const InversionCount& inversion, PoseResult& result) {

@@ -2,23 +2,27 @@
 
 #include "modeler/pose/handles.h"
 #include "modeler/pose/pose.h"
+#include "modeler/pose/posed_field.h"
 #include "modeler/pose/solid_field.h"
+#include "modeler/pose/starting_pose.h"
 
 namespace supple {
 
-// What a pose, displacements `u` [N×3] of a solid's particles, did. All fill in `result`.
+// What a pose did. All fill in `result`.
 
-/// Misses of the handles over all their surface samples, over the diagonal.
-void measure_handles(const Solid& solid, const SolidField& field, const HandleSamples& handles,
-                     const Points& u, PoseResult& result);
+/// Misses of the user's handles over all their surface samples, over the diagonal.
+void measure_handles(const PosedField& posed, const HandleSamples& handles, PoseResult& result);
 
 /// Within the region's boundary, at rest and carried along: the mesh itself may be open.
-void measure_volume(const Solid& solid, const SolidField& field, const Points& u,
-                    const DeformedSurface& surface, PoseResult& result);
+void measure_volume(const Solid& solid, const PosedField& posed, const DeformedSurface& surface,
+                    PoseResult& result);
 
 /// The smallest det F over particles and the surface's vertices, and how many are not positive.
 InversionCount worst_inversion(const Solid& solid, const SolidField& field, const Points& u,
                                const DeformedSurface& surface);
+
+/// How well the pose to start from is met.
+void judge_start(const StartingPose& from, Report& report);
 
 /// Reasons and notes that follow from what was measured; ends the report.
 void judge(const Solid& solid, const SolidField& field, const PoseSpec& spec,

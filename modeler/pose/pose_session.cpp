@@ -4,24 +4,21 @@
 
 #include "io/scene/complaint.h"
 #include "modeler/pose/stiffness.h"
+#include "solver/core/check.h"
 
 namespace supple {
 namespace {
 
-/// How far apart handles are sampled, in spacings: hard ones shall be met between samples too.
-constexpr double handle_width = 0.5, hard_handle_width = 0.1;
-
-HandleSamples choose_handles(const Mesh& mesh, const Solid& solid, const Scene& scene) {
-  SurfaceSamples samples = solid.surface();
-  samples.positions = solid.restored(samples.positions);
-  const HandleContext context{
-      {mesh, solid.triangulation(), solid.box(), scene.folder},
-      samples,
-      solid.surface(),
-      solid.origin(),
-      solid.unit(),
-      (scene.pose->hard_handles ? hard_handle_width : handle_width) * solid.particles().spacing};
-  return {make_handles(scene.pose->handles, context), solid.surface().positions};
+const Scene& checked(const Scene& scene) {
+  const PoseSpec& spec = *scene.pose;
+  if (spec.handles.empty())
+    complain(spec.place, "pose.handles: none; needed: the parts that are held and dragged");
+  const bool to_places =
+      std::any_of(spec.handles.begin(), spec.handles.end(),
+                  [](const HandleSpec& handle) { return handle.to.has_value(); });
+  if (spec.from || spec.region || spec.mirror || to_places)
+    complain(spec.place, "pose: a session knows no from, to, region or mirror");
+  return scene;
 }
 
 double total_energy(const Report& report) {
@@ -33,21 +30,29 @@ double total_energy(const Report& report) {
 }  // namespace
 
 PoseSession::PoseSession(const Mesh& mesh, const Scene& scene)
-    : rest_(sized(mesh, scene.shape)),
-      scene_(scene),
+    : scene_(checked(scene)),
+      rest_(sized(mesh, scene_.shape)),
       solid_(rest_, scene_.shape),
-      handles_(choose_handles(rest_, solid_, scene_)),
+      chosen_(rest_, solid_, scene_, {}),
+      handles_(chosen_.take()),
       normals_(solid_.triangulation().triangles, rest_.positions.rows()) {
-  if (handles_.empty())
-    complain(scene_.shape.place, "pose.handles: none; needed: what is to be dragged");
   solid_.choose_particle_supports(scene_.shape);
-  field_ = std::make_unique<const SolidField>(solid_, scene_.shape, scene_.pose->surface);
+  const PoseSpec& spec = *scene_.pose;
+  field_ = std::make_unique<const SolidField>(solid_, scene_.shape, spec.surface);
+  const HandleContext& context = chosen_.context();
+  Eigen::VectorXd stiffness;
+  if (!spec.stiffness.empty())
+    stiffness =
+        stiffness_factors(spec.stiffness, context.selection, context.restored(context.surface),
+                          solid_.restored(field_->points.points));
   solver_ = std::make_unique<PoseSolver>(field_->mls, field_->quadrature, field_->points.volumes,
-                                         handles_, scene_.pose->weights, Eigen::VectorXd());
+                                         handles_, spec.weights, stiffness);
   u_ = PaddedPoints::Zero(solid_.particles().size(), 4);
 }
 
 void PoseSession::lead(std::size_t handle, const HandlePath& path) {
+  SUPPLE_CHECK(handle < handles_.handles().size() && !handles_.handles()[handle].spec->fix,
+               "a handle that moves");
   HandlePath scaled = path;
   scaled.center = (path.center - solid_.origin()) / solid_.unit();
   scaled.about = (path.about - solid_.origin()) / solid_.unit();
@@ -76,13 +81,13 @@ Report PoseSession::release() {
   return keep ? polished : walked;
 }
 
-void PoseSession::deform(Points& positions) {
+void PoseSession::deform(FloatPoints& positions) {
   displaced_ = u_.leftCols<3>();
   field_->surface.positions(displaced_, solid_.particles().volumes,
                             {solid_.origin(), solid_.unit()}, scratch_, positions);
 }
 
-void PoseSession::deform(Points& positions, Points& normals) {
+void PoseSession::deform(FloatPoints& positions, FloatPoints& normals) {
   deform(positions);
   normals_.compute(positions, normals);
 }

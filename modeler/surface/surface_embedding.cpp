@@ -39,15 +39,17 @@ DeformedSurface SurfaceEmbedding::deform(const Points& u, const Eigen::VectorXd&
 }
 
 void SurfaceEmbedding::positions(const Points& u, const Eigen::VectorXd& volumes,
-                                 const Frame& frame, Scratch& scratch, Points& out) const {
+                                 const Frame& frame, Scratch& scratch, FloatPoints& out) const {
   const RigidMotion rigid = rigid_part(u, volumes, scratch.moved);
   find_remainder(u, rigid, frame.unit, scratch);
   // The blocks add what they sum to any linear map, so the frame goes into the rigid part.
   const RigidMotion framed{frame.unit * rigid.R, frame.origin + frame.unit * rigid.t};
-  if (kind_ == SurfaceKind::field)
+  if (kind_ == SurfaceKind::field) {
     blocks_.displace(framed, scratch.remainder, out);
-  else
-    blocks_.blend(framed, scratch.maps, out);
+  } else {
+    blocks_.blend(framed, scratch.maps, scratch.blended);
+    out = scratch.blended.cast<float>();
+  }
 }
 
 RigidMotion SurfaceEmbedding::rigid_part(const Points& u, const Eigen::VectorXd& volumes,

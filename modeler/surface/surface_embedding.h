@@ -40,11 +40,12 @@ class SurfaceEmbedding {
     Points moved;
     ParticleValues<3> remainder;
     ParticleValues<12> maps;
+    Points blended;  ///< of SurfaceKind::particle_gradients
   };
 
-  /// The positions of deform() alone, in `frame`.
+  /// The positions of deform() alone, in `frame` and in single precision.
   void positions(const Points& u, const Eigen::VectorXd& volumes, const Frame& frame,
-                 Scratch& scratch, Points& out) const;
+                 Scratch& scratch, FloatPoints& out) const;
 
   /// Vertices outside all supports: they follow the nearest particle.
   long uncovered() const { return blocks_.uncovered(); }

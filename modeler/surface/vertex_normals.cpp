@@ -29,11 +29,12 @@ VertexNormals::VertexNormals(const Triangles& triangles, Index vertices)
     }
 }
 
-void VertexNormals::compute(const Points& positions, Points& normals) {
+void VertexNormals::compute(const FloatPoints& positions, FloatPoints& normals) {
   const auto derive_faces = [&](Index begin, Index end) {
     for (Index face = begin; face < end; ++face) {
-      const Vec3 a = positions.row(triangles_(face, 0)), b = positions.row(triangles_(face, 1)),
-                 c = positions.row(triangles_(face, 2));
+      const Eigen::Vector3f a = positions.row(triangles_(face, 0)),
+                            b = positions.row(triangles_(face, 1)),
+                            c = positions.row(triangles_(face, 2));
       face_normals_.row(face) = (b - a).cross(c - a).transpose();
     }
   };
@@ -42,13 +43,13 @@ void VertexNormals::compute(const Points& positions, Points& normals) {
   normals.resize(positions.rows(), 3);
   const auto sum_vertices = [&](Index begin, Index end) {
     for (Index vertex = begin; vertex < end; ++vertex) {
-      Vec3 sum = Vec3::Zero();
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       const auto at = static_cast<std::size_t>(vertex);
       for (int k = starts_[at]; k < starts_[at + 1]; ++k)
         sum += face_normals_.row(around_[static_cast<std::size_t>(k)]).transpose();
-      const double length = sum.norm();
-      normals.row(vertex) = length > 0 ? Eigen::RowVector3d(sum.transpose() / length)
-                                       : Eigen::RowVector3d(Eigen::RowVector3d::Zero());
+      const float length = sum.norm();
+      normals.row(vertex) = length > 0 ? Eigen::RowVector3f(sum.transpose() / length)
+                                       : Eigen::RowVector3f(Eigen::RowVector3f::Zero());
     }
   };
   parallel_chunks(positions.rows(), rows_per_chunk, std::cref(sum_vertices));

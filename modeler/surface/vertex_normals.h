@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/core/types.h"
+#include "solver/field/blocked_field.h"
 
 namespace supple {
 
@@ -13,13 +13,13 @@ class VertexNormals {
   VertexNormals(const Triangles& triangles, Index vertices);
 
   /// `positions` [m] n×3. Only the first call allocates.
-  void compute(const Points& positions, Points& normals);
+  void compute(const FloatPoints& positions, FloatPoints& normals);
 
  private:
   const Triangles triangles_;
-  std::vector<int> starts_;  ///< n+1 offsets into around_
-  std::vector<int> around_;  ///< the faces at each vertex
-  Points face_normals_;      ///< times twice the area
+  std::vector<int> starts_;   ///< n+1 offsets into around_
+  std::vector<int> around_;   ///< the faces at each vertex
+  FloatPoints face_normals_;  ///< times twice the area
 };
 
 }  // namespace supple

@@ -17,7 +17,7 @@ EnumNames<Status> enum_names(Status) {
 }
 
 EnumNames<ReasonCode> enum_names(ReasonCode) {
-  static constexpr std::array<std::pair<ReasonCode, std::string_view>, 11> names{{
+  static constexpr std::array<std::pair<ReasonCode, std::string_view>, 12> names{{
       {ReasonCode::inverted, "inverted"},
       {ReasonCode::handle_miss, "handle_miss"},
       {ReasonCode::uncovered, "uncovered"},
@@ -28,13 +28,14 @@ EnumNames<ReasonCode> enum_names(ReasonCode) {
       {ReasonCode::turn_lost, "turn_lost"},
       {ReasonCode::not_finite, "not_finite"},
       {ReasonCode::thin, "thin"},
+      {ReasonCode::from_miss, "from_miss"},
       {ReasonCode::self_contact, "self_contact"},
   }};
   return names;
 }
 
 std::span<const ReasonLimit> reason_limits() {
-  static constexpr std::array<ReasonLimit, 11> limits{{
+  static constexpr std::array<ReasonLimit, 12> limits{{
       {ReasonCode::inverted, 0.0, "det F at or below this"},
       {ReasonCode::handle_miss, 0.01, "a handle sample's miss over the bounding-box diagonal"},
       {ReasonCode::uncovered, 0.0, "number of points outside all supports"},
@@ -45,6 +46,7 @@ std::span<const ReasonLimit> reason_limits() {
       {ReasonCode::turn_lost, 0.2, "share of the energy lost in one step of the handles' way"},
       {ReasonCode::not_finite, 0.0, "number of values that are not finite"},
       {ReasonCode::thin, 0.05, "share of the surface further from all particles than it should"},
+      {ReasonCode::from_miss, 0.01, "miss of the pose to start from over the diagonal"},
       {ReasonCode::self_contact, 0.005, "share of the surface within or against its own part"},
   }};
   return limits;

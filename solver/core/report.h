@@ -23,6 +23,7 @@ enum class ReasonCode {
   turn_lost,       ///< the shape fell back from a turn on the handles' way
   not_finite,      ///< a number became NaN or infinite
   thin,            ///< a part is thinner than the particles can follow
+  from_miss,       ///< the pose to start from is not one that the particles can take
   self_contact,    ///< the surface lies within or against itself
 };
 

@@ -270,7 +270,8 @@ void deform(benchmark::State& state) {
                          24 * static_cast<std::size_t>(solid.vertices().rows()));
   Points u = Points::Random(solid.particles().size(), 3) * 0.05;
   SurfaceEmbedding::Scratch scratch;
-  Points out, plain(solid.vertices().rows(), 3);
+  FloatPoints out;
+  Points plain(solid.vertices().rows(), 3);
   for (auto _ : state) {
     std::vector<double> ours, reads, plains;
     for (int turn = 0; turn < 40; ++turn) {
@@ -286,7 +287,7 @@ void deform(benchmark::State& state) {
     state.counters["faster_than_plain_rows"] = milliseconds(plains) / milliseconds(ours);
     state.counters["entries_per_vertex"] =
         static_cast<double>(rows.entries()) / static_cast<double>(solid.vertices().rows());
-    state.counters["difference"] = (out - plain).rowwise().norm().maxCoeff();
+    state.counters["difference"] = (out.cast<double>() - plain).rowwise().norm().maxCoeff();
   }
 }
 
@@ -304,7 +305,7 @@ void frames(benchmark::State& state) {
   PoseSession session(mesh, drag_scene(60));
   const Box box = bounding_box(mesh.positions);
   const Vec3 about(box.center().x(), box.upper.y(), box.center().z());
-  Points positions, normals;
+  FloatPoints positions, normals;
   session.deform(positions, normals);
   for (auto _ : state) {
     std::vector<double> poses, deforms, shadeds;
@@ -354,7 +355,8 @@ void beside_cgal(benchmark::State& state) {
     const double cgal_set_up = timed(
         [&] { cgal = std::make_unique<AsRigidAsPossible>(mesh.positions, triangles, controls); });
     std::vector<double> ours, theirs;
-    Points positions, targets = mesh.positions(controls, Eigen::all);
+    FloatPoints positions;
+    Points targets = mesh.positions(controls, Eigen::all);
     double change = 0, cgal_change = 0;
     for (int step = 1; step <= steps; ++step) {
       const HandlePath path = drag_path(step, about, box.diagonal());
@@ -370,7 +372,7 @@ void beside_cgal(benchmark::State& state) {
       const auto change_of = [&](const Points& deformed) {
         return std::abs(signed_volume(deformed, triangles) / volume - 1);
       };
-      change = std::max(change, change_of(positions));
+      change = std::max(change, change_of(positions.cast<double>()));
       cgal_change = std::max(cgal_change, change_of(cgal->positions()));
     }
     state.counters["vertices"] = static_cast<double>(mesh.positions.rows());

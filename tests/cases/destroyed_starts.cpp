@@ -20,7 +20,8 @@ class HeldBar {
             choose_supports(particles_.positions, particles_.spacing, particles_.positions).radii),
         quadrature_(
             sample_field(field_, particles_.positions, SampleContent::values_and_gradients)),
-        handles_(ends_held(), ends()),
+        ends_(point_samples(ends(), Eigen::VectorXd::Ones(32))),
+        handles_(ends_held()),
         solver_(field_, quadrature_, particles_.volumes, handles_, {}) {}
 
   const Points& positions() const { return particles_.positions; }
@@ -46,10 +47,12 @@ class HeldBar {
   }
 
   std::vector<PoseHandle> ends_held() {
-    PoseHandle handle{&spec_, {}, {}, {}};
-    handle.thinned.indices.resize(32);
-    std::iota(handle.thinned.indices.begin(), handle.thinned.indices.end(), 0);
-    handle.thinned.areas = Eigen::VectorXd::Ones(32);
+    PoseHandle handle;
+    handle.spec = &spec_;
+    handle.samples = &ends_;
+    handle.selected.resize(32);
+    std::iota(handle.selected.begin(), handle.selected.end(), 0);
+    handle.thinned = {handle.selected, ends_.areas};
     return {handle};
   }
 
@@ -57,6 +60,7 @@ class HeldBar {
   Particles particles_;
   MovingLeastSquares<3> field_;
   Samples quadrature_;
+  SurfaceSamples ends_;
   HandleSamples handles_;
   PoseSolver solver_;
 };

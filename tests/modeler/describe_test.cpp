@@ -49,7 +49,8 @@ using AllOptions =
     testing::Types<MovingLeastSquaresOptions, SupportOptions, MinimizeOptions,
                    ParticleSamplingOptions, VolumeSampleOptions, SelfIntersectionOptions,
                    OctreeOptions, OctreeParticleOptions, CellQuadratureOptions, Camera,
-                   PictureOptions, ShapeSpec, TurnSpec, HandleSpec, PoseWeights, PoseSpec, Scene>;
+                   PictureOptions, ShapeSpec, TurnSpec, HandleSpec, PoseWeights, StiffnessSpec,
+                   MirrorSpec, PoseSpec, Scene>;
 TYPED_TEST_SUITE(EveryOptions, AllOptions);
 
 TYPED_TEST(EveryOptions, DescribesItsMembersWithinTheirBounds) {

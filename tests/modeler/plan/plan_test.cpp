@@ -34,6 +34,9 @@ TEST(Plan, NamesTheLineThatCausedEachEffect) {
                     "  surface: particle_gradients\n"),
             "+ quadrature: quadrature is auto, the default\n"
             "+ coupling: coupling is inside, the default\n"
+            "- from: pose.from is not given: the way starts at rest\n"
+            "- region: pose.region is not given: all may move\n"
+            "- mirror: pose.mirror is not given: handles act where they are\n"
             "+ handles: scene.yaml:4:7: fix y<10% weight 2; "
             "scene.yaml:6:7: move y>90% by 10%,0,0 turn 0,0,1,30\n"
             "+ rigidity: weights.rigidity is 1, the default\n"
@@ -69,6 +72,35 @@ TEST(Plan, NamesThePartsThatAreStiffer) {
       << plan_of(scene);
 }
 
+TEST(Plan, NamesFilesOfPoses) {
+  const std::string scene =
+      "shape: {mesh: bar.obj}\npose:\n  from: posed.ply\n"
+      "  handles: [{move: y>1, to: targets.ply}, {to: nose.txt}]\n";
+  for (const std::string line : {"+ from: scene.yaml:3:9: the way starts at posed.ply\n",
+                                 "+ handles: scene.yaml:4:13: move y>1 to targets.ply; "
+                                 "scene.yaml:4:43: move nose.txt\n",
+                                 "+ substeps: scene.yaml:4:13"})
+    EXPECT_NE(plan_of(scene).find(line), std::string::npos) << plan_of(scene);
+}
+
+TEST(Plan, NamesTheRegion) {
+  const std::string scene =
+      "shape: {mesh: bar.obj}\npose:\n  region: y>1\n  region_blend: 5%\n  handles: [{fix: y>2}]\n";
+  EXPECT_NE(plan_of(scene).find("+ region: scene.yaml:3:11: nothing outside y>1 moves; the pose "
+                                "sets in over 5%\n"),
+            std::string::npos)
+      << plan_of(scene);
+}
+
+TEST(Plan, NamesTheMirror) {
+  const std::string scene =
+      "shape: {mesh: bar.obj}\npose:\n  mirror: {normal: [1, 0, 0]}\n  handles: [{fix: y>2}]\n";
+  EXPECT_NE(plan_of(scene).find("+ mirror: scene.yaml:3:11: handles act on both sides of the "
+                                "plane across 1,0,0\n"),
+            std::string::npos)
+      << plan_of(scene);
+}
+
 TEST(Plan, WithoutHandlesNothingIsSolved) {
   Scene scene;
   scene.pose.emplace();
@@ -86,6 +118,9 @@ TEST(Plan, OfTheArmadilloScene) {
   EXPECT_EQ(described(make_plan(read_scene(path))),
             "+ quadrature: quadrature is auto, the default\n"
             "+ coupling: coupling is inside, the default\n"
+            "- from: pose.from is not given: the way starts at rest\n"
+            "- region: pose.region is not given: all may move\n"
+            "- mirror: pose.mirror is not given: handles act where they are\n"
             "+ handles: " +
                 where + ":10:7: fix y<8%; " + where +
                 ":11:7: move y>85% and x>25% and x<75% by 15%,-5%,0 turn 0,0,1,-35\n"
