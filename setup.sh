@@ -2,18 +2,21 @@
 # Installs the Debian packages that are missing; does nothing where all are there.
 #   ./setup.sh           what the build and the program need
 #   ./setup.sh --tests   what the tests and their sanitizer build need as well
+#   ./setup.sh --bench   what the benchmarks and their peers need as well
 set -euo pipefail
 
 packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev libceres-dev libnlopt-dev libopenblas0-pthread libtbb-dev libnanoflann-dev
   libosmesa6-dev libpng-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev)
-test_packages=(libgtest-dev libbenchmark-dev clang libclang-rt-dev clang-format)
+test_packages=(libgtest-dev clang libclang-rt-dev clang-format)
+bench_packages=(libgtest-dev libbenchmark-dev libcgal-dev)
 
 case "${1-}" in
   '') ;;
   --tests) packages+=("${test_packages[@]}") ;;
-  *) echo "usage: ${0##*/} [--tests]" >&2; exit 2 ;;
+  --bench) packages+=("${bench_packages[@]}") ;;
+  *) echo "usage: ${0##*/} [--tests|--bench]" >&2; exit 2 ;;
 esac
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then

@@ -55,9 +55,9 @@ TEST(VertexTargets, AreTheSameAsTheMotionTheyCameFrom) {
     places.row(i) = (about + Eigen::AngleAxisd(1, Vec3::UnitX()) * (x - about)).transpose();
   }
   const PoseResult moved = pose(
-      bar,
-      scene_with(hard + "{move: z>93.7%, turn: {axis: [1, 0, 0], degrees: 57.29577951308232, about: "
-                        "[0.125, 0.125, 0.5]}}\n"));
+      bar, scene_with(hard +
+                      "{move: z>93.7%, turn: {axis: [1, 0, 0], degrees: 57.29577951308232, about: "
+                      "[0.125, 0.125, 0.5]}}\n"));
   const PoseResult led = pose(bar, scene_with(hard + "{move: z>93.7%, to: targets.ply}\n"), {},
                               {{}, {{}, all_to(places)}});
   EXPECT_EQ(led.report.status, Status::ok);

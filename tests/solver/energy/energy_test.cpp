@@ -110,6 +110,22 @@ TEST_P(EveryEnergy, JacobianMatchesFiniteDifferences) {
   }
 }
 
+TEST_P(EveryEnergy, ShortWayToItsSquareIsThatOfTheResidual) {
+  Random random(6);
+  for (int trial = 0; trial < 100; ++trial) {
+    LocalField at;
+    at.sample = trial % body.samples.size();
+    at.f = random.in_cube(-1, 1);
+    for (int i = 0; i < 9; ++i) at.F(i / 3, i % 3) = random.uniform(-1.5, 1.5);
+    LocalDerivative by_residual, short_way;
+    const double square = energy->Energy::add_square(at, 0.7, by_residual);
+    const double tolerance = 1e-13 * (1 + square);
+    EXPECT_NEAR(energy->add_square(at, 0.7, short_way), square, tolerance);
+    EXPECT_LT((short_way.by_f - by_residual.by_f).norm(), 10 * tolerance);
+    EXPECT_LT((short_way.by_F - by_residual.by_F).norm(), 10 * tolerance);
+  }
+}
+
 /// Compares the gradient with central differences over displacements of `size`.
 void expect_true_gradient(const Energy& energy, const Body& body, double size) {
   EnergySum sum(body.particles.size());

@@ -6,6 +6,7 @@
 
 #include "solver/core/parallel.h"
 #include "solver/field/blocked_field.h"
+#include "solver/field/spatial_order.h"
 #include "solver/field/supports.h"
 #include "tests/support/lattice.h"
 
@@ -158,6 +159,28 @@ TEST_F(BlockedFieldTest, AgreesWithThePlainRows) {
     EXPECT_LT((positions.row(k).transpose() - samples.position(k, u)).norm(), 1e-6);
     EXPECT_LT((gradients[std::size_t(k)] - samples.deformation_gradient(k, u)).norm(), 1e-4);
   }
+}
+
+TEST_F(BlockedFieldTest, SinglePrecisionIsAsGoodAsItsNumbers) {
+  const RigidMotion rigid{Eigen::AngleAxisd(2, Vec3(1, 2, 3).normalized()).toRotationMatrix(),
+                          Vec3(1, 2, 3)};
+  const ParticleValues<3> d = bend(body.particles.positions).cast<float>();
+  Points exact;
+  FloatPoints rounded;
+  blocked.displace(rigid, d, exact);
+  blocked.displace(rigid, d, rounded);
+  EXPECT_LT((rounded.cast<double>() - exact).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+/// Laid out in their own order or by place.
+TEST_F(BlockedFieldTest, DoesNotDependOnTheOrderOfThePoints) {
+  const std::vector<int> order = spatial_order(points);
+  const BlockedField coherent(body.field, points(order, Eigen::all));
+  const ParticleValues<3> d = bend(body.particles.positions).cast<float>();
+  Points here, there;
+  blocked.displace({}, d, here);
+  coherent.displace({}, d, there);
+  EXPECT_LT((here(order, Eigen::all) - there).cwiseAbs().maxCoeff(), 1e-7);
 }
 
 TEST_F(BlockedFieldTest, CompletesGradientsOfAPlaneOfParticles) {
