@@ -138,12 +138,24 @@ bool SceneArguments::is_scene_file() const {
 
 Scene SceneArguments::take() {
   Scene scene = read();
+  if (scene.pose && scene.pose->region) name_by_option(*scene.pose->region);
+  if (scene.pose && scene.pose->mirror) name_by_option(scene.pose->mirror->place);
   std::vector<HandleSpec> handles = handles_.take();
   if (handles.empty() && !parts_.given()) return scene;
   if (!scene.pose) scene.pose.emplace().place = scene.shape.place;
   parts_.give(*scene.pose);
   for (HandleSpec& handle : handles) scene.pose->handles.push_back(std::move(handle));
   return scene;
+}
+
+void SceneArguments::name_by_option(Place& place) const {
+  for (const Knob& knob : knobs_)
+    if (place.file == fmt::format("--set {}={}", knob.key, knob.value)) place.file = knob.words;
+}
+
+void SceneArguments::name_by_option(Selection& selection) const {
+  name_by_option(selection.place);
+  for (Selection& part : selection.parts) name_by_option(part);
 }
 
 Scene SceneArguments::read() const {

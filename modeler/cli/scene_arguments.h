@@ -41,6 +41,9 @@ class SceneArguments {
   template <class Member>
   void declare_knob(CommandLine& line, const std::string& key, const std::string& option,
                     const Described& described);
+  /// What an option asked for is said to come from that option, not from the key it stands for.
+  void name_by_option(Place& place) const;
+  void name_by_option(Selection& selection) const;
   Scene read() const;
   Scene read_shape(const SceneOverrides& overrides) const;
 

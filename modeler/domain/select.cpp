@@ -56,6 +56,12 @@ Mask faces_in_group(const Mesh& mesh, const Selection& selection) {
                                               allowed_names(selection.name, names)));
 }
 
+/// Of vertices or groups, which points of space are not in.
+bool speaks_of_samples(const Selection& selection) {
+  return selection.kind == Selection::Kind::vertices || selection.kind == Selection::Kind::group ||
+         std::any_of(selection.parts.begin(), selection.parts.end(), speaks_of_samples);
+}
+
 class Selector {
  public:
   Selector(const SelectionContext& context, const SurfaceSamples& samples)
@@ -194,6 +200,14 @@ SurfaceSamples stand_ins(const Points& points, const SurfaceSamples& surface) {
     stand_ins.vertices.push_back(surface.vertices[static_cast<std::size_t>(nearest)]);
   }
   return stand_ins;
+}
+
+SurfaceSamples stand_ins(const Points& points, const SurfaceSamples& surface,
+                         const Selection& selection) {
+  if (speaks_of_samples(selection)) return stand_ins(points, surface);
+  SurfaceSamples bare;
+  bare.positions = points;
+  return bare;
 }
 
 void complain_of_nothing(const Selection& selection, const Box& box, std::string_view of) {

@@ -36,6 +36,9 @@ std::vector<char> select_mask(const Selection& selection, const SelectionContext
 /// Points anywhere in a shape as select_mask() takes them: half-spaces, boxes and spheres speak of
 /// the points, vertices and groups of the surface sample nearest to each. Areas are left out.
 SurfaceSamples stand_ins(const Points& points, const SurfaceSamples& surface);
+/// The same for `selection`: the nearest samples are sought only where it speaks of them.
+SurfaceSamples stand_ins(const Points& points, const SurfaceSamples& surface,
+                         const Selection& selection);
 
 /// Throws UsageError: the selection holds nothing of what `of` names.
 [[noreturn]] void complain_of_nothing(const Selection& selection, const Box& box,

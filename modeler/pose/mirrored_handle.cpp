@@ -10,13 +10,11 @@
 namespace supple {
 namespace {
 
+/// The shape's symmetry is looked at by vertices so far apart, in spacings.
+constexpr double vertex_width_over_spacing = 0.125;
+
 /// Places nearer than this share of the diagonal are the same.
 constexpr double same_place = 1e-9;
-
-/// The samples with their images for positions, and what lies near these.
-SurfaceSamples images(const SurfaceSamples& samples, const MirrorPlane& plane) {
-  return stand_ins(plane.points(samples.positions), samples);
-}
 
 std::vector<int> chosen_in(const std::vector<char>& mask) {
   std::vector<int> chosen;
@@ -28,7 +26,8 @@ std::vector<int> chosen_in(const std::vector<char>& mask) {
 /// Selects the samples whose images the handle's selection holds.
 void select_images(const Selection& selection, const MirrorPlane& plane,
                    const HandleContext& context, PoseHandle& mirrored) {
-  SurfaceSamples seen = images(*mirrored.samples, plane);
+  SurfaceSamples seen =
+      stand_ins(plane.points(mirrored.samples->positions), *mirrored.samples, selection);
   seen.positions = context.restored(seen).positions;
   mirrored.selected = chosen_in(select_mask(selection, context.selection, seen));
   mirrored.mirror = plane;
@@ -39,7 +38,7 @@ void mirror_places(const PoseHandle& handle, const MirrorPlane& plane, PoseHandl
   const SurfaceSamples& samples = *handle.samples;
   std::vector<int> led;
   for (const int k : handle.selected) led.push_back(samples.vertices[static_cast<std::size_t>(k)]);
-  const SurfaceSamples seen = images(samples, plane);
+  const SurfaceSamples seen = stand_ins(plane.points(samples.positions), samples);
   std::vector<Vec3> places;
   for (Index k = 0; k < samples.size(); ++k) {
     const int vertex = seen.vertices[static_cast<std::size_t>(k)];
@@ -92,15 +91,16 @@ MirrorPlane scaled_plane(const MirrorSpec& spec, const Solid& solid) {
 }
 
 double asymmetry(const Solid& solid, const MirrorPlane& plane) {
-  const Points& vertices = solid.vertices();
-  const SiteTree tree(vertices);
+  const SiteTree vertices(solid.vertices());
   double greatest = 0;
-  for (Index i = 0; i < vertices.rows(); ++i) {
-    if (!solid.used_vertices()[static_cast<std::size_t>(i)]) continue;
-    const Vec3 image = plane.point(vertices.row(i).transpose());
-    const double distance =
-        std::min(tree.distance(image), std::abs(solid.region().signed_distance(image)));
-    greatest = std::max(greatest, distance);
+  const double width = vertex_width_over_spacing * solid.particles().spacing;
+  const Points images = plane.points(solid.spread_vertices(width));
+  for (Index i = 0; i < images.rows(); ++i) {
+    const Vec3 image = images.row(i).transpose();
+    const double to_vertex = vertices.distance(image);
+    if (to_vertex <= greatest) continue;
+    const double to_surface = std::abs(solid.region().signed_distance(image));
+    greatest = std::max(greatest, std::min(to_vertex, to_surface));
   }
   return greatest;
 }

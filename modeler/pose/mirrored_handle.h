@@ -16,8 +16,8 @@ std::optional<PoseHandle> mirrored_handle(const PoseHandle& handle, const Mirror
 /// The plane in a solid's scaled coordinates.
 MirrorPlane scaled_plane(const MirrorSpec& spec, const Solid& solid);
 
-/// How far the mirrored surface lies from the surface: of the vertices on the surface, the
-/// greatest distance of one's image to the surface or a vertex [scaled coordinates].
+/// How far the mirrored surface lies from the surface: of vertices spread over it, the greatest
+/// distance of one's image to the surface or a vertex [scaled coordinates].
 double asymmetry(const Solid& solid, const MirrorPlane& plane);
 
 }  // namespace supple

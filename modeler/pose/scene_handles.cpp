@@ -66,8 +66,8 @@ SceneHandles::SceneHandles(const Mesh& rest, const Solid& solid, const Scene& sc
   if (!spec.region) return;
   region_.emplace(*spec.region, resolved_blend(spec, context_, solid.particles().spacing),
                   context_.selection, context_.restored(context_.surface));
-  check_within_region(spec);
   leave_to_region(spec);
+  check_within_region(spec);
 }
 
 void SceneHandles::add_mirrored() {
@@ -80,12 +80,11 @@ void SceneHandles::add_mirrored() {
 
 void SceneHandles::check_within_region(const PoseSpec& spec) const {
   for (const PoseHandle& handle : handles_) {
-    const SurfaceSamples samples = context_.restored(*handle.samples);
-    const std::vector<int> outside = samples_outside(*region_, samples);
-    const auto is_outside = [&](int k) {
-      return std::binary_search(outside.begin(), outside.end(), k);
-    };
-    const long count = std::count_if(handle.selected.begin(), handle.selected.end(), is_outside);
+    if (handle.origin == HandleOrigin::region) continue;
+    const Points places = (handle.rest() * context_.unit).rowwise() + context_.origin.transpose();
+    long count = 0;
+    for (Index row = 0; row < places.rows(); ++row)
+      if (region_->at(places.row(row).transpose()).value == 0) ++count;
     if (count > 0)
       complain(handle.spec->place,
                fmt::format("{} lies outside pose.region {} with {} of its {} samples; allowed: "

@@ -54,6 +54,9 @@ class Solid {
   Vec3 origin() const { return origin_.transpose(); }
   double unit() const { return unit_; }
 
+  /// Of the surface's vertices, one where others lie within about `width`, in our coordinates.
+  Points spread_vertices(double width) const;
+
   /// Fixes the particles' supports so that they reach everything that is to be covered.
   /// Returns the share of covered points whose particles lie near a plane or a line.
   double choose_particle_supports(const ShapeSpec& spec);
@@ -75,7 +78,6 @@ class Solid {
   DetoursWithin detours_within_supports();
   // About `width` apart, in our coordinates:
   Points spread_over_surface(double width) const;
-  Points spread_vertices(double width) const;
 
   Triangulation triangulation_;
   std::vector<bool> used_;

@@ -1,64 +1,10 @@
 #include <chrono>
 #include <thread>
 
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-
-#include "io/mesh/mesh_files.h"
-#include "tests/support/run_program.h"
-#include "tests/support/shapes.h"
+#include "tests/modeler/cli/program_fixture.h"
 
 namespace supple {
 namespace {
-
-using Json = nlohmann::json;
-
-void expect_contains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "no \"" << part << "\" in:\n" << text;
-}
-
-void expect_lacks(const std::string& text, const std::string& part) {
-  EXPECT_EQ(text.find(part), std::string::npos) << "\"" << part << "\" in:\n" << text;
-}
-
-/// Runs the built program in a fresh folder that holds a bar along y and a scene for it.
-class ProgramTest : public testing::Test {
- protected:
-  void SetUp() override {
-    write_mesh(make_bar({0.2, 1, 0.2}, {4, 20, 4}), folder / "bar.obj");
-    folder.put("scene.yaml",
-               "shape: {mesh: bar.obj, particles: 60}\n"
-               "pose:\n"
-               "  handles:\n"
-               "    - fix: y<10%\n"
-               "    - move: y>90%\n"
-               "      by: [10%, 0, 0]\n");
-  }
-
-  ProgramResult run(std::vector<std::string> words) const {
-    return Program(SUPPLE_PROGRAM, std::move(words), folder.path()).wait();
-  }
-
-  /// `words` behind a pose of the bar that would work.
-  ProgramResult pose_bar(std::vector<std::string> words) const {
-    std::vector<std::string> all = {"pose",  "bar.obj", "--particles", "60", "--fix",
-                                    "y<10%", "--move",  "y>90%",       "-o", "posed.obj"};
-    all.insert(all.end(), words.begin(), words.end());
-    return run(all);
-  }
-
-  bool exists(const std::string& name) const { return std::filesystem::exists(folder / name); }
-
-  Json json(const std::string& name) const { return Json::parse(bytes_of(folder / name)); }
-
-  TemporaryFolder folder;
-};
-
-void expect_usage_error(const ProgramResult& result, const std::string& words) {
-  EXPECT_EQ(result.code, 2) << result.err;
-  expect_contains(result.err, words);
-  EXPECT_EQ(result.out, "");
-}
 
 TEST_F(ProgramTest, SaysWhatItIs) {
   const ProgramResult version = run({"--version"});
@@ -93,79 +39,6 @@ TEST_F(ProgramTest, HelpHasExamplesThatWork) {
     }
     EXPECT_GE(examples, 2) << help.out;
   }
-}
-
-TEST_F(ProgramTest, StiffensParts) {
-  EXPECT_EQ(
-      pose_bar({"--by", "10%,0,0", "--stiffen", "y:40%..60%", "--times", "9", "--report", "r.json"})
-          .code,
-      0);
-  expect_contains(json("r.json")["effects"]["active"]["stiffness"]["because"], "9 times as stiff");
-  expect_usage_error(pose_bar({"--stiffen", "y<50%"}), "--times is missing");
-  expect_usage_error(pose_bar({"--times", "3"}), "no --stiffen stands before it");
-}
-
-TEST_F(ProgramTest, GoesOnFromAnotherPose) {
-  EXPECT_EQ(pose_bar({"--by", "10%,0,0"}).code, 0);
-  EXPECT_EQ(run({"pose", "bar.obj", "--particles", "60", "--fix", "y<10%", "--move", "y>90%",
-                 "--by", "5%,0,0", "--from", "posed.obj", "-o", "further.obj"})
-                .code,
-            0);
-  const Points once = read_mesh(folder / "posed.obj").positions;
-  const Points further = read_mesh(folder / "further.obj").positions;
-  EXPECT_NEAR((further - once).col(0).maxCoeff(), 0.05 * std::sqrt(1.08), 0.002);
-  write_mesh(make_bar({1, 1, 1}, {1, 1, 1}), folder / "other.obj");
-  expect_usage_error(pose_bar({"--from", "other.obj"}), "has 8 vertices, the shape 354");
-  EXPECT_EQ(pose_bar({"--from", "none.obj"}).code, 3);
-}
-
-TEST_F(ProgramTest, MovesNothingOutsideARegion) {
-  EXPECT_EQ(run({"pose", "bar.obj", "--particles", "60", "--region", "y>30%", "--region-blend",
-                 "8%", "--move", "y>90%", "--by", "10%,0,0", "-o", "posed.obj"})
-                .code,
-            0);
-  const Points rest = read_mesh(folder / "bar.obj").positions;
-  const Points posed = read_mesh(folder / "posed.obj").positions;
-  for (Index i = 0; i < rest.rows(); ++i)
-    EXPECT_TRUE(rest(i, 1) > 0.3 || rest.row(i) == posed.row(i)) << i;
-  EXPECT_GT((posed - rest).col(0).maxCoeff(), 0.09);
-  expect_usage_error(pose_bar({"--region", "y>30%"}), "'y<10%' lies outside pose.region 'y>30%'");
-  expect_usage_error(pose_bar({"--region", "y"}), "--region y");
-  expect_usage_error(pose_bar({"--region-blend", "8%"}), "pose.region is missing");
-}
-
-TEST_F(ProgramTest, MirrorsHandles) {
-  EXPECT_EQ(run({"pose", "bar.obj", "--particles", "60", "--mirror", "0,1,0", "--fix", "y:45%..55%",
-                 "--move", "y>90%", "--by", "10%,0,0", "-o", "posed.obj", "--report", "r.json"})
-                .code,
-            0);
-  EXPECT_EQ(json("r.json")["handles"]["each"].size(), 3u);
-  const Points rest = read_mesh(folder / "bar.obj").positions;
-  const Points moved = read_mesh(folder / "posed.obj").positions - rest;
-  for (Index i = 0; i < rest.rows(); ++i)
-    EXPECT_TRUE(std::abs(rest(i, 1) - 0.5) < 0.45 || moved(i, 0) > 0.08) << i;
-  expect_usage_error(pose_bar({"--mirror", "0,0,0"}), "--mirror 0,0,0");
-  expect_usage_error(pose_bar({"--mirror-at", "0,0,0"}), "pose.mirror.normal is missing");
-}
-
-TEST_F(ProgramTest, LeadsVerticesToTheirPlaces) {
-  EXPECT_EQ(pose_bar({"--by", "10%,0,0"}).code, 0);
-  EXPECT_EQ(run({"pose", "bar.obj", "--particles", "60", "--fix", "y<10%", "--move", "y>90%",
-                 "--to", "posed.obj", "-o", "again.obj"})
-                .code,
-            0);
-  const Points difference =
-      read_mesh(folder / "again.obj").positions - read_mesh(folder / "posed.obj").positions;
-  EXPECT_LT(difference.cwiseAbs().maxCoeff(), 5e-3);
-  expect_usage_error(pose_bar({"--by", "1,0,0", "--to", "posed.obj"}), "--by stands beside it");
-  folder.put("nose.txt", "0 0 0 0\n999 0 0 0\n");
-  const ProgramResult wrong = pose_bar({"--to", "nose.txt"});
-  EXPECT_EQ(wrong.code, 3);
-  expect_contains(wrong.err, "nose.txt:2: there is no vertex 999");
-  folder.put("led.yaml",
-             "shape: {mesh: bar.obj, particles: 60}\n"
-             "pose: {handles: [{fix: y<10%}, {to: posed.obj}]}\n");
-  expect_usage_error(run({"pose", "led.yaml", "-o", "led.obj"}), "led.yaml:2:37: move is missing");
 }
 
 TEST_F(ProgramTest, MisspeltOptionNamesTheNearest) {
