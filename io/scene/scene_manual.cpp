@@ -54,6 +54,27 @@ A selection is text, or a map where commas would be cut inside `{ }` and `[ ]`:
 | `not a` | `{not: a}` | outside |
 
 `not` binds before `and`, `and` before `or`; parentheses change that.
+
+## Beside handles
+
+```yaml
+pose:
+  from: posed.ply                                # the way starts at another pose of the shape
+  stiffness: [{select: y:40%..60%, times: 5}]    # the inside of the part too
+  region: y>30%                                  # nothing outside changes by a bit
+  region_blend: 5%
+  mirror: {normal: [1, 0, 0]}                    # handles act on both sides
+  handles:
+    - {move: x>90%, by: [5%, 0, 0]}
+    - {move: group(face), to: smile.ply}         # each vertex to its own place
+    - {to: landmarks.txt}                        # lines: number x y z
+```
+
+- What handles miss in `from` is where they start: soft handles give way once more, `hard_handles`
+  end where one step would.
+- The wider `region_blend`, the smoother the edge, and the more of the pose it takes away there.
+- The pose of a symmetric shape is made symmetric to rounding, unless `from`, `stiffness` or
+  `region` ask for more.
 )";
 
 template <class T>

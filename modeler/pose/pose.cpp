@@ -113,7 +113,9 @@ void check_fill_gaps(const Mesh& mesh, const PoseSpec& spec) {
 
 void check_files(const Mesh& mesh, const PoseSpec& spec, const PoseFiles& files) {
   SUPPLE_CHECK(spec.from.has_value() == files.from.has_value(), "pose.from is loaded");
-  SUPPLE_CHECK(files.targets.empty() || files.targets.size() == spec.handles.size(),
+  const bool led = std::any_of(spec.handles.begin(), spec.handles.end(),
+                               [](const HandleSpec& handle) { return handle.to.has_value(); });
+  SUPPLE_CHECK(!led || files.targets.size() == spec.handles.size(),
                "targets are loaded, one a handle");
   if (!files.from) return;
   if (files.from->rows() != mesh.positions.rows())

@@ -131,6 +131,32 @@ TEST(SceneReader, ReadsEveryKey) {
   EXPECT_EQ(scene.pose->surface, SurfaceKind::particle_gradients);
 }
 
+TEST(SceneReader, ReadsWhatStandsBesideHandles) {
+  const Scene scene = read_scene_text(
+      "shape: {mesh: a.ply}\n"
+      "pose:\n"
+      "  from: posed.ply\n"
+      "  stiffness: [{select: y<10%, times: 5}, {select: {group: arm}, times: 0.5}]\n"
+      "  region: y>30% and not x<1\n"
+      "  region_blend: 5%\n"
+      "  mirror: {normal: [1, 0, 2], at: [10%, 0, 0]}\n"
+      "  handles: [{move: x>1, to: there.ply}, {to: nose.txt}]\n",
+      "s.yaml", "folder");
+  const PoseSpec& pose = *scene.pose;
+  EXPECT_EQ(pose.from->path, "posed.ply");
+  EXPECT_EQ(to_string(pose.from->place), "s.yaml:3:9");
+  ASSERT_EQ(pose.stiffness.size(), 2u);
+  EXPECT_EQ(pose.stiffness[0].times, 5);
+  EXPECT_EQ(test::show(pose.stiffness[1].select), "(group 'arm')");
+  EXPECT_EQ(test::show(*pose.region), "(and (y > 30%) (not (x < 1)))");
+  EXPECT_EQ(to_string(*pose.region_blend), "5%");
+  EXPECT_EQ(pose.mirror->normal, Vec3(1, 0, 2));
+  EXPECT_EQ(test::show(*pose.mirror->at), "10% 0 0");
+  EXPECT_EQ(pose.handles[0].to->path, "there.ply");
+  EXPECT_EQ(pose.handles[1].part(), "nose.txt");
+  EXPECT_FALSE(pose.handles[1].move);
+}
+
 TEST(SceneReader, ReadsSelectionsAsMaps) {
   const std::pair<std::string, std::string> forms[] = {
       {"{box: {min: [0, 0, 0], max: [1, 2, 3]}}", "(box 0 0 0 | 1 2 3)"},
