@@ -25,17 +25,19 @@ bool PartArguments::given() const {
 
 void PartArguments::give(PoseSpec& pose) const {
   if (from_) pose.from = from_;
+  check_times();
+  pose.stiffness.insert(pose.stiffness.end(), stiffness_.begin(), stiffness_.end());
+}
+
+void PartArguments::check_times() const {
   if (with_times_ < stiffness_.size())
     throw UsageError(fmt::format("{}: --times is missing behind it, as in --times 5",
                                  stiffness_.back().place.file));
-  pose.stiffness.insert(pose.stiffness.end(), stiffness_.begin(), stiffness_.end());
 }
 
 void PartArguments::add_stiffness(const std::string& selection) {
   const Place place{fmt::format("--stiffen {}", selection)};
-  if (with_times_ < stiffness_.size())
-    throw UsageError(fmt::format("{}: --times is missing behind it, as in --times 5",
-                                 stiffness_.back().place.file));
+  check_times();
   stiffness_.push_back({place, parse_selection(selection, place), 1});
 }
 

@@ -18,6 +18,7 @@ class PartArguments {
   void give(PoseSpec& pose) const;
 
  private:
+  void check_times() const;
   void add_stiffness(const std::string& selection);
   void set_times(const std::string& value);
 

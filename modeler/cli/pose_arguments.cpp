@@ -26,6 +26,7 @@ Examples:
   supple pose bunny.obj --fix 'y<10%' --move 'y>85%' --by 15%,0,0 -o posed.obj
   supple pose bunny.obj --fix 'y<10%' --move 'y>85%' --turn 0,1,0,30 --picture posed.png
   supple pose bunny.obj --fix 'y<10%' --move 'y>85%' --by 0,5%,0 --scale 1.1 -o posed.ply
+  supple pose bunny.obj --region 'y>50%' --move 'y>85%' --by 5%,0,0 -o posed.obj
   supple pose scene.yaml -o posed.obj --report posed.json --set pose.weights.volume=10)";
 
 void check_distinct(const std::vector<std::string>& paths) {
