@@ -10,7 +10,7 @@ mkdir -p "$folder"
 cd "$folder"
 "$source"/examples/make_bar.sh >bar.off
 cat >pose.yaml <<'SCENE'
-shape: {mesh: bar.off, particles: 40}
+shape: {mesh: bar.off, particles: 40, coupling: straight}
 pose:
   substeps: 1
   weights: {volume: 0}
@@ -23,13 +23,13 @@ SCENE
 effects=(
   'VolumeEnergy::(add_square|evaluate)|pose.weights.volume=1'
   'HardConstraints::|pose.hard_handles=true'
-  'RegionBlend::|pose.region=y>5%'
+  'RegionBlend::|pose.region=y<200%'
   'stiffness_factors|pose.stiffness=[{select: y>50%, times: 3}]'
   'mirrored_handle|pose.mirror={normal: [1, 0, 0]}'
   'fill_gaps|'
   'fit_pose|'
   '::repair|'
-  'InsideDetours::|'
+  'InsideDetours::|shape.coupling=inside'
   'nlopt_|pose.solver=nlopt'
   'minimize_trust_region|pose.solver=trust_region'
 )
