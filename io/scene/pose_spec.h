@@ -125,6 +125,7 @@ struct PoseSpec {
   std::optional<MirrorSpec> mirror;
   MinimizerKind solver = MinimizerKind::lbfgs;
   bool hard_handles = false;
+  bool no_inversion = false;
   int max_iterations = 2000;
   double tolerance = 1e-6;
   std::optional<int> substeps;
@@ -154,6 +155,8 @@ struct PoseSpec {
     visit("hard_handles", self.hard_handles,
           {.doc = "true: handles are met exactly, as far as the particles can and they do not "
                   "contradict each other"});
+    visit("no_inversion", self.no_inversion,
+          {.doc = "true: a barrier keeps det F above 0; where that cannot be, the run fails"});
     visit("max_iterations", self.max_iterations,
           {.doc = "limit for one solve", .min = 1, .max = 1e6});
     visit("tolerance", self.tolerance,

@@ -116,6 +116,11 @@ void add_hard_handles(const PoseSpec& pose, std::vector<Effect>& effects) {
   effects.push_back(pose.hard_handles ? on("hard_handles", why) : off("hard_handles", why));
 }
 
+void add_no_inversion(const PoseSpec& pose, std::vector<Effect>& effects) {
+  const std::string why = setting(pose.place, "no_inversion", pose.no_inversion, false);
+  effects.push_back(pose.no_inversion ? on("no_inversion", why) : off("no_inversion", why));
+}
+
 void add_from(const PoseSpec& pose, std::vector<Effect>& effects) {
   effects.push_back(pose.from
                         ? on("from", fmt::format("{}: the way starts at {}",
@@ -151,7 +156,7 @@ void add_solving(const PoseSpec& pose, std::vector<Effect>& effects) {
   add_mirror(pose, effects);
   if (pose.handles.empty()) {
     for (const char* name :
-         {"handles", "rigidity", "volume", "stiffness", "substeps", "hard_handles"})
+         {"handles", "rigidity", "volume", "stiffness", "substeps", "hard_handles", "no_inversion"})
       effects.push_back(off(name, "the scene has no handles: the shape stays as it is"));
     return;
   }
@@ -159,6 +164,7 @@ void add_solving(const PoseSpec& pose, std::vector<Effect>& effects) {
   add_stiffness(pose, effects);
   add_substeps(pose, effects);
   add_hard_handles(pose, effects);
+  add_no_inversion(pose, effects);
 }
 
 }  // namespace

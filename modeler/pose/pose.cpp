@@ -87,6 +87,7 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
              PoseResult& result, Points& u) {
   PoseSolver solver(field.mls, field.quadrature, field.points.volumes, handles, spec.weights,
                     stiffness);
+  if (spec.no_inversion) solver.forbid_inversion();
   const PoseSolveOptions options{
       {spec.solver, spec.max_iterations, spec.tolerance},
       spec.substeps.value_or(substeps_needed(handles, solid.particles().size())),

@@ -127,7 +127,11 @@ void judge(const Solid& solid, const SolidField& field, const PoseSpec& spec,
            const InversionCount& inversion, PoseResult& result) {
   Report& report = result.report;
   for (const Reason& reason : solid.reasons()) report.degrade(reason);
-  if (inversion.inverted > 0)
+  if (inversion.inverted > 0 && spec.no_inversion)
+    report.fail({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
+                 fmt::format("{} points are turned inside out, which no_inversion forbids",
+                             inversion.inverted)});
+  else if (inversion.inverted > 0)
     report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
                     fmt::format("{} points are turned inside out, the worst with det F = {:.3g}",
                                 inversion.inverted, inversion.min_det_F)});

@@ -47,6 +47,7 @@ PoseSession::PoseSession(const Mesh& mesh, const Scene& scene)
                           solid_.restored(field_->points.points));
   solver_ = std::make_unique<PoseSolver>(field_->mls, field_->quadrature, field_->points.volumes,
                                          handles_, spec.weights, stiffness);
+  if (spec.no_inversion) solver_->forbid_inversion();
   u_ = PaddedPoints::Zero(solid_.particles().size(), 4);
 }
 

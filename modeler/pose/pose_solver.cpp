@@ -74,6 +74,10 @@ PoseSolver::PoseSolver(const MovingLeastSquares<3>& field, const Samples& quadra
   preconditioner_.emplace(energy_);
 }
 
+void PoseSolver::forbid_inversion() {
+  energy_.add(barrier_, quadrature_, volume_shares_, weights_.rigidity);
+}
+
 Report PoseSolver::solve(const PoseSolveOptions& options,
                          const std::function<void(double)>& on_step, Points& u) {
   const Way fixed = way_of(options);

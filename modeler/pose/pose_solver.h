@@ -9,6 +9,7 @@
 #include "solver/core/report.h"
 #include "solver/energy/energy_sum.h"
 #include "solver/energy/handle.h"
+#include "solver/energy/inversion_barrier.h"
 #include "solver/energy/rigidity.h"
 #include "solver/energy/volume.h"
 #include "solver/minimize/minimize.h"
@@ -30,6 +31,9 @@ class PoseSolver {
   PoseSolver(const MovingLeastSquares<3>& field, const Samples& quadrature,
              const Eigen::VectorXd& volumes, const HandleSamples& handles,
              const PoseWeights& weights, const Eigen::VectorXd& stiffness = {});
+  /// From now on no point where energies are summed may turn inside out.
+  void forbid_inversion();
+
   PoseSolver(const PoseSolver&) = delete;
   PoseSolver& operator=(const PoseSolver&) = delete;
 
@@ -86,6 +90,7 @@ class PoseSolver {
   HandleEnergy handle_energy_;
   RigidityEnergy rigidity_;
   VolumeEnergy volume_;
+  InversionBarrier barrier_;
   EnergySum energy_;
   std::optional<Preconditioner> preconditioner_;
   std::vector<bool> held_;  ///< particles that hang together with a handle

@@ -23,6 +23,7 @@ SCENE
 effects=(
   'VolumeEnergy::(add_square|evaluate)|pose.weights.volume=1'
   'HardConstraints::|pose.hard_handles=true'
+  'InversionBarrier::evaluate|pose.no_inversion=true'
   'RegionBlend::|pose.region=y<200%'
   'stiffness_factors|pose.stiffness=[{select: y>50%, times: 3}]'
   'mirrored_handle|pose.mirror={normal: [1, 0, 0]}'

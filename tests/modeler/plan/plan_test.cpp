@@ -44,6 +44,7 @@ TEST(Plan, NamesTheLineThatCausedEachEffect) {
             "- stiffness: pose.stiffness is not given: one for all parts\n"
             "+ substeps: scene.yaml:6:7: move y>90% by 10%,0,0 turn 0,0,1,30\n"
             "- hard_handles: hard_handles is false, the default\n"
+            "- no_inversion: no_inversion is false, the default\n"
             "+ surface: scene.yaml:3:3: surface is particle_gradients\n"
             "+ normals: the surface moves; used where the mesh has normals\n"
             "- motion: the scene has no motion\n"
@@ -131,6 +132,7 @@ TEST(Plan, OfTheArmadilloScene) {
                 where +
                 ":11:7: move y>85% and x>25% and x<75% by 15%,-5%,0 turn 0,0,1,-35\n"
                 "- hard_handles: hard_handles is false, the default\n"
+                "- no_inversion: no_inversion is false, the default\n"
                 "+ surface: surface is field, the default\n"
                 "+ normals: the surface moves; used where the mesh has normals\n"
                 "- motion: the scene has no motion\n"

@@ -326,5 +326,30 @@ TEST(Pose, FillsGapsOfPointCloudsOnly) {
       << message;
 }
 
+/// A bar bent by half a turn over a width that is too narrow for it.
+std::string sharp_bend(const std::string& more) {
+  return more +
+         "  handles:\n    - fix: z<10%\n    - {move: z>90%, turn: {axis: [0, 1, 0], degrees: "
+         "180, about: [1.1, 0.5, 2]}}\n";
+}
+
+TEST(Pose, ABarrierKeepsAFoldFromTurningInsideOut) {
+  const Mesh bar = make_bar({1, 1, 4}, {8, 8, 32});
+  const PoseResult without = pose(bar, scene_with(sharp_bend("")));
+  const PoseResult with = pose(bar, scene_with(sharp_bend("  no_inversion: true\n")));
+  EXPECT_LT(without.min_det_F, with.min_det_F);
+  EXPECT_GT(with.min_det_F, 0);
+  EXPECT_TRUE(with.report.usable());
+}
+
+TEST(Pose, ABarrierThatIsNotNeededChangesNothing) {
+  const std::string handles =
+      "  handles:\n    - fix: z<10%\n    - {move: z>90%, by: [0.5, 0, 0]}\n";
+  const Mesh bar = make_bar({1, 1, 4}, {8, 8, 32});
+  const PoseResult without = pose(bar, scene_with(handles));
+  const PoseResult with = pose(bar, scene_with("  no_inversion: true\n" + handles));
+  EXPECT_EQ(with.mesh.positions, without.mesh.positions);
+}
+
 }  // namespace
 }  // namespace supple
