@@ -13,8 +13,8 @@ using Anchor = SketchText::Anchor;
 
 constexpr Color grid_color{0.88f, 0.88f, 0.9f}, axis_color{0.35f, 0.35f, 0.38f};
 constexpr Color band_color{0.95f, 0.95f, 0.96f}, front_color{0.98f, 0.80f, 0.30f};
-constexpr double point_radius = 3.5, ring_radius = 9, front_width = 11;  // [px]
-constexpr double line_height = 20;                                       // [px]
+constexpr double point_radius = 4, ring_radius = 9, front_width = 11;  // [px]
+constexpr double line_height = 20;                                     // [px]
 
 struct Extent {
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
@@ -145,10 +145,16 @@ class LogLogDrawing {
       if (point.high > point.low)
         add_line({x_.at(point.x), y_.at(point.low)}, {x_.at(point.x), y_.at(point.high)},
                  curve.color);
-      sketch_.add(SketchCircle{at(point), point_radius, curve.color});
+      draw_point(at(point), point.mark, curve.color);
     }
     for (const ChartPoint& point : curve.points)
       if (!point.text.empty() && is_within(point)) add_label(at(point), point.text, curve.color);
+  }
+
+  void draw_point(const Pixel& at, ChartPoint::Mark mark, const Color& color) {
+    sketch_.add(SketchCircle{at, point_radius, color});
+    if (mark == ChartPoint::Mark::hollow)
+      sketch_.add(SketchCircle{at, point_radius - 1.5, {1, 1, 1}});
   }
 
   /// Beside a point, where no other label is; else not at all.
@@ -181,8 +187,10 @@ class LogLogDrawing {
     for (const ChartFailure& failure : chart_.failures) {
       add_line({x - arm, y - arm}, {x + arm, y + arm}, failure.color, 2);
       add_line({x - arm, y + arm}, {x + arm, y - arm}, failure.color, 2);
-      add_text({x - arm, y + 16}, failure.text, Anchor::start, failure.color);
-      x += letter_width * static_cast<double>(failure.text.size() + 2);
+      const double width = letter_width * static_cast<double>(failure.text.size() + 2);
+      const bool fits = x + width < frame_.right;  // else the cross alone
+      if (fits) add_text({x - arm, y + 16}, failure.text, Anchor::start, failure.color);
+      x = std::min(frame_.right, x + (fits ? width : 3 * arm));
     }
   }
 

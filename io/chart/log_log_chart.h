@@ -10,9 +10,11 @@ namespace supple {
 
 /// A point with its bars along y; `text` beside it.
 struct ChartPoint {
+  enum class Mark { full, hollow };
   double x = 0, y = 0;
   double low = 0, high = 0;
   std::string text = {};
+  Mark mark = Mark::full;
 };
 
 struct ChartCurve {

@@ -28,7 +28,13 @@ constexpr std::array<Color, 7> knob_colors{{{0.12f, 0.35f, 0.75f},
 ChartPoint point_of(const Study& study, const StudyRow& row, double error) {
   const std::vector<double>& seconds = study.trial(row).seconds;
   const auto [least, greatest] = std::minmax_element(seconds.begin(), seconds.end());
-  return {error, median(seconds), *least, *greatest, row.own ? std::string() : row.value};
+  const bool sound = study.trial(row).outcome.status == Status::ok;
+  return {error,
+          median(seconds),
+          *least,
+          *greatest,
+          row.own ? std::string() : row.value,
+          sound ? ChartPoint::Mark::full : ChartPoint::Mark::hollow};
 }
 
 /// The knobs of the rows, in their order.
@@ -60,7 +66,7 @@ void add_knob(const Study& study, const std::string& knob, const Color& color, L
 
 LogLogChart errors_chart(const Study& study) {
   LogLogChart chart;
-  chart.title = "Error and time; ring: the scene as it is; thick: Pareto front";
+  chart.title = "Ring: the scene as it is; thick: Pareto front; hollow: degraded; x: failed";
   chart.y_title = "seconds, median of the runs [min-max]";
   chart.x_title = "error: rms over the surface, over the diagonal (falling)";
   const std::vector<std::string> knobs = knobs_of(study);

@@ -60,7 +60,7 @@ TrialOutcome run_pose_trial(const Mesh& shape, const Scene& scene, const SceneOv
   } catch (const Interrupted&) {
     if (stopped) throw;
     outcome =
-        failed(fmt::format("stopped after {:.2g} s, at the end of the budget", watch.seconds()));
+        failed(fmt::format("stopped after {:.2g} s: the budget left it no more", watch.seconds()));
   } catch (const UsageError& error) {
     outcome = failed(error.what());
   } catch (const ShapeError& error) {

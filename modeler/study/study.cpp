@@ -34,7 +34,7 @@ std::vector<Knob> needed_knobs(const std::vector<Knob>& knobs, const std::vector
 std::optional<Reference> converged(const Sweeps& sweeps) {
   std::vector<GridLevel> levels;
   for (const KnobSweep& sweep : sweeps.knobs) {
-    if (!sweep.knob->converges) continue;
+    if (!sweep.knob.converges) continue;
     for (const SweepPoint& point : sweep.points) {
       const Trial& trial = sweeps.trials[point.trial];
       if (trial.usable())
@@ -74,7 +74,7 @@ class KnobRows {
   const Trial& trial(std::size_t i) const { return sweeps_.trials[sweep_.points[i].trial]; }
 
   StudyRow row(std::size_t i) const {
-    const Knob& knob = *sweep_.knob;
+    const Knob& knob = sweep_.knob;
     StudyRow row{.knob = knob.name, .value = knob.values[i], .trial = sweep_.points[i].trial};
     row.own = i == knob.own;
     row.noisy = is_noisy(trial(i).seconds);
@@ -95,9 +95,18 @@ class KnobRows {
     return row;
   }
 
+  /// The finest result is as far from a reference in doubt as the expected order wants it.
+  bool order_is_assumed(std::size_t i) const {
+    if (!sweep_.knob.converges || !shared_ || shared_->plausible) return false;
+    return std::all_of(sweep_.points.begin(), sweep_.points.end(), [&](const SweepPoint& point) {
+      return sweeps_.trials[point.trial].outcome.unknowns <= trial(i).outcome.unknowns;
+    });
+  }
+
   std::optional<double> order(const StudyRow& before, const StudyRow& row, std::size_t i) const {
-    const double coarse = fineness(*sweep_.knob, sweep_.points[i - 1], trial(i - 1));
-    const double fine = fineness(*sweep_.knob, sweep_.points[i], trial(i));
+    if (order_is_assumed(i)) return std::nullopt;
+    const double coarse = fineness(sweep_.knob, sweep_.points[i - 1], trial(i - 1));
+    const double fine = fineness(sweep_.knob, sweep_.points[i], trial(i));
     if (!before.error || !row.error || !(*before.error > 0) || !(*row.error > 0) ||
         !(coarse > fine) || !(fine > 0))
       return std::nullopt;
@@ -172,7 +181,7 @@ Study study(const std::vector<Knob>& knobs, const std::vector<Knob>& chosen, con
   Study result;
   result.reference = converged(sweeps);
   for (const KnobSweep& sweep : sweeps.knobs)
-    if (is_chosen(*sweep.knob, chosen))
+    if (is_chosen(sweep.knob, chosen))
       for (StudyRow& row : KnobRows(sweeps, sweep, result.reference).make())
         result.rows.push_back(std::move(row));
   result.trials = std::move(sweeps.trials);

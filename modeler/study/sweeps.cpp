@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,9 @@ namespace {
 /// How time is taken to grow with the degrees of freedom before two runs have shown it.
 constexpr double cautious_exponent = 2;
 
+/// A name, such as another minimiser, may take any time: so much of what is left of the budget.
+constexpr double share_of_a_name = 0.5;
+
 std::size_t trial_of(const SceneOverrides& settings, int runs, std::vector<Trial>& trials) {
   const auto same = [&](const Trial& trial) { return trial.settings == settings; };
   const auto found = std::find_if(trials.begin(), trials.end(), same);
@@ -21,6 +25,12 @@ std::size_t trial_of(const SceneOverrides& settings, int runs, std::vector<Trial
   trials[index].wanted_runs = std::max(trials[index].wanted_runs, runs);
   return index;
 }
+
+/// What is known of a run before it starts.
+struct Forecast {
+  double seconds = 0;       ///< 0: nothing is known
+  double most_seconds = 0;  ///< after which it is stopped
+};
 
 /// Runs trials within the budget, and remembers what they took.
 class SweepRun {
@@ -33,12 +43,12 @@ class SweepRun {
   void first_runs() {
     for (std::size_t i = 0; i < sweeps_.trials.size(); ++i) {
       Trial& trial = sweeps_.trials[i];
-      const double predicted = predict(i);
-      if (predicted <= left())
-        run_once(trial);
+      const Forecast forecast = forecast_of(i);
+      if (forecast.seconds <= left())
+        run_once(trial, forecast.most_seconds);
       else
         trial.skipped = fmt::format("predicted to take {:.2g} s, with {:.2g} s of the budget left",
-                                    predicted, left());
+                                    forecast.seconds, left());
     }
   }
 
@@ -46,15 +56,15 @@ class SweepRun {
     for (int round = 1; round < options_.runs; ++round)
       for (Trial& trial : sweeps_.trials)
         if (round < trial.wanted_runs && trial.usable() && median(trial.seconds) <= left())
-          run_once(trial);
+          run_once(trial, left());
   }
 
  private:
   double left() const { return std::max(0.0, options_.budget - spent_); }
 
-  void run_once(Trial& trial) {
+  void run_once(Trial& trial, double most_seconds) {
     if (options_.progress) options_.progress(setting_text(trial.settings), done_ / wanted_);
-    TrialOutcome outcome = run_(trial.settings, left());
+    TrialOutcome outcome = run_(trial.settings, most_seconds);
     done_ += 1;
     spent_ += outcome.seconds;
     trial.seconds.push_back(outcome.seconds);
@@ -62,25 +72,28 @@ class SweepRun {
     if (fastest) trial.outcome = std::move(outcome);
   }
 
-  /// The time of a trial that has not run; 0 where nothing tells it.
-  double predict(std::size_t index) const {
+  Forecast forecast_of(std::size_t index) const {
     for (const KnobSweep& sweep : sweeps_.knobs) {
-      for (const SweepPoint& point : sweep.points)
-        if (point.trial == index) return predict(sweep, point);
-      if (sweep.exact && sweep.exact->trial == index) return predict(sweep, *sweep.exact);
+      if (sweep.exact && sweep.exact->trial == index) return {predict(sweep, *sweep.exact), left()};
+      for (const SweepPoint& point : sweep.points) {
+        if (point.trial != index) continue;
+        const bool by_name = sweep.knob.numbers.empty() && !sweeps_.trials[index].settings.empty();
+        return {predict(sweep, point), by_name ? share_of_a_name * left() : left()};
+      }
     }
-    return 0;
+    return {0, left()};
   }
 
+  /// The time of a trial that has not run; 0 where nothing tells it.
   double predict(const KnobSweep& sweep, const SweepPoint& point) const {
     std::vector<std::pair<double, double>> times;
     for (const SweepPoint& other : sweep.points)
       if (const Trial& trial = sweeps_.trials[other.trial]; !trial.seconds.empty())
         times.emplace_back(other.number, median(trial.seconds));
     if (const auto law = fit_power_law(times)) return law->at(point.number);
-    if (sweep.knob->converges && !times.empty())
+    if (sweep.knob.converges && !times.empty())
       return times.back().second * std::pow(point.number / times.back().first, cautious_exponent);
-    return median(sweeps_.trials[sweep.points[sweep.knob->own].trial].seconds);
+    return median(sweeps_.trials[sweep.points[sweep.knob.own].trial].seconds);
   }
 
   Sweeps& sweeps_;
@@ -100,9 +113,17 @@ std::string setting_text(const SceneOverrides& settings) {
 }
 
 Sweeps plan_sweeps(const std::vector<Knob>& knobs, const SweepOptions& options) {
+  std::vector<std::size_t> in_turn(knobs.size());
+  std::iota(in_turn.begin(), in_turn.end(), std::size_t{0});
+  // What can be foretold comes first.
+  std::stable_partition(in_turn.begin(), in_turn.end(),
+                        [&](std::size_t i) { return !knobs[i].numbers.empty(); });
   Sweeps sweeps;
-  for (const Knob& knob : knobs) {
-    KnobSweep sweep{&knob, {}, {}};
+  sweeps.knobs.resize(knobs.size());
+  for (const std::size_t at : in_turn) {
+    const Knob& knob = knobs[at];
+    KnobSweep& sweep = sweeps.knobs[at];
+    sweep.knob = knob;
     for (std::size_t i = 0; i < knob.values.size(); ++i) {
       const SceneOverrides settings =
           i == knob.own ? SceneOverrides{} : SceneOverrides{{knob.key, knob.values[i]}};
@@ -111,7 +132,6 @@ Sweeps plan_sweeps(const std::vector<Knob>& knobs, const SweepOptions& options) 
     }
     if (!knob.exact.empty())
       sweep.exact = {trial_of({{knob.key, knob.exact}}, 1, sweeps.trials), std::stod(knob.exact)};
-    sweeps.knobs.push_back(std::move(sweep));
   }
   return sweeps;
 }

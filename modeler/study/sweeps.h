@@ -17,14 +17,14 @@ struct SweepPoint {
 };
 
 struct KnobSweep {
-  const Knob* knob = nullptr;
+  Knob knob;
   std::vector<SweepPoint> points;   ///< one a value of the knob
   std::optional<SweepPoint> exact;  ///< whose result counts as exact
 };
 
 /// Every setting is one trial, however many knobs share it: the scene as it is stands in all.
 struct Sweeps {
-  std::vector<Trial> trials;  ///< in the order in which they run: coarse first
+  std::vector<Trial> trials;  ///< in the order in which they run: numbers first, coarse first
   std::vector<KnobSweep> knobs;
 };
 
@@ -38,12 +38,13 @@ struct SweepOptions {
 /// "tolerance=1e-06"; "as it is" for the scene's own values.
 std::string setting_text(const SceneOverrides& settings);
 
-/// The trials that the knobs call for. `knobs` outlive it.
+/// The trials that the knobs call for.
 Sweeps plan_sweeps(const std::vector<Knob>& knobs, const SweepOptions& options);
 
 /// Runs every trial once, then those again that are to be timed more often, round by round. No run
 /// starts whose time, as the power law t = a·N^b of the knob's runs so far or the scene's own run
-/// foretells it, exceeds what is left of the budget; what is left out says so.
+/// foretells it, exceeds what is left of the budget; what is left out says so. A name, whose time
+/// nothing foretells, is stopped at half of what is left.
 void run_sweeps(Sweeps& sweeps, const Runner& run, const SweepOptions& options);
 
 }  // namespace supple

@@ -140,6 +140,18 @@ TEST(LogLogChart, ShowsRingBandSlopeAndFailures) {
   EXPECT_TRUE(cross_on_top);
 }
 
+TEST(LogLogChart, HollowPointsHaveAHole) {
+  LogLogChart chart = falling_chart();
+  chart.curves[0].points[2].mark = ChartPoint::Mark::hollow;
+  Sketch sketch{600, 500};
+  draw(chart, frame, sketch);
+  const auto circles = shapes_of<SketchCircle>(sketch);
+  ASSERT_EQ(circles.size(), 5u);
+  EXPECT_EQ(circles[3].center, circles[2].center);
+  EXPECT_LT(circles[3].radius, circles[2].radius);
+  EXPECT_EQ(circles[3].color, (Color{1, 1, 1}));
+}
+
 TEST(LogLogChart, IsDrawnOfNothingAndOfValuesWithoutLogarithm) {
   LogLogChart chart{"title", "error", "seconds", {{"N", {0, 0, 1}, {}, 0}}};
   Sketch empty{600, 500};

@@ -90,6 +90,20 @@ TEST(Study, FlagsErrorsThatItsReferenceCannotTell) {
   EXPECT_GT(row_of(result, "particles", "1600").uncertainty, 0);
 }
 
+TEST(Study, TellsNoOrderThatItAssumed) {
+  const Manufactured problem;
+  const Study result = study(
+      {particles_knob()}, {particles_knob()}, [&](const SceneOverrides& settings, double most) {
+        TrialOutcome outcome = problem(settings, most);
+        outcome.positions += (outcome.unknowns > 3000 ? 10.0 : 0.0) * problem.solver_field;
+        return outcome;
+      });
+  ASSERT_TRUE(result.reference);
+  EXPECT_FALSE(result.reference->plausible) << "the finest result jumps";
+  EXPECT_FALSE(row_of(result, "particles", "1600").order);
+  EXPECT_TRUE(row_of(result, "particles", "800").order);
+}
+
 TEST(Study, FlagsNoisyTimes) {
   const Manufactured problem;
   int run = 0;

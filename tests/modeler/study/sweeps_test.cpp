@@ -79,6 +79,31 @@ TEST(Sweeps, UseTheBudgetThatThereIs) {
       << "what is left is for more runs of the coarse ones";
 }
 
+TEST(Sweeps, NamesRunLastAndCannotTakeTheWholeBudget) {
+  SweepOptions options;
+  options.budget = 100;
+  Sweeps sweeps = plan_sweeps({solver_knob(), tolerance_knob()}, options);
+  EXPECT_EQ(sweeps.knobs.front().knob.name, "solver") << "rows keep the order of the knobs";
+  std::vector<std::string> settings;
+  double spent = 0;
+  run_sweeps(
+      sweeps,
+      [&](const SceneOverrides& setting, double most) {
+        const bool by_name = !setting.empty() && setting.front().first == "pose.solver";
+        TrialOutcome outcome;
+        outcome.status = by_name ? Status::failed : Status::ok;
+        outcome.seconds = by_name ? most : 2;  // it takes all that it may
+        spent += outcome.seconds;
+        settings.push_back(setting_text(setting));
+        return outcome;
+      },
+      options);
+  EXPECT_EQ(settings[0], "tolerance=0.01");
+  EXPECT_EQ(settings[5], "solver=worse");
+  EXPECT_EQ(std::count(settings.begin(), settings.end(), "tolerance=0.0001"), 3);
+  EXPECT_LE(spent, options.budget);
+}
+
 TEST(Sweeps, FailedTrialsAreNotRepeated) {
   Sweeps sweeps = plan_sweeps({solver_knob()}, {});
   int runs = 0;
