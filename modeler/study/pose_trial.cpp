@@ -59,8 +59,8 @@ TrialOutcome run_pose_trial(const Mesh& shape, const Scene& scene, const SceneOv
     outcome = outcome_of(pose(shape, overridden(scene, settings), within_budget));
   } catch (const Interrupted&) {
     if (stopped) throw;
-    outcome =
-        failed(fmt::format("stopped after {:.2g} s: the budget left it no more", watch.seconds()));
+    outcome = failed(fmt::format("stopped after {:.2g} s: it was given {:.2g} s", watch.seconds(),
+                                 most_seconds));
   } catch (const UsageError& error) {
     outcome = failed(error.what());
   } catch (const ShapeError& error) {

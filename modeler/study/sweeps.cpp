@@ -14,8 +14,9 @@ namespace {
 /// How time is taken to grow with the degrees of freedom before two runs have shown it.
 constexpr double cautious_exponent = 2;
 
-/// A name, such as another minimiser, may take any time: so much of what is left of the budget.
-constexpr double share_of_a_name = 0.5;
+/// A name, such as another minimiser, might take any time. It gets so much of what is left of the
+/// budget, and no more than so many times what the scene's own value takes.
+constexpr double share_of_a_name = 0.5, most_times_own = 30;
 
 std::size_t trial_of(const SceneOverrides& settings, int runs, std::vector<Trial>& trials) {
   const auto same = [&](const Trial& trial) { return trial.settings == settings; };
@@ -78,10 +79,20 @@ class SweepRun {
       for (const SweepPoint& point : sweep.points) {
         if (point.trial != index) continue;
         const bool by_name = sweep.knob.numbers.empty() && !sweeps_.trials[index].settings.empty();
-        return {predict(sweep, point), by_name ? share_of_a_name * left() : left()};
+        return {predict(sweep, point), by_name ? most_for_a_name(sweep) : left()};
       }
     }
     return {0, left()};
+  }
+
+  double most_for_a_name(const KnobSweep& sweep) const {
+    const double own = own_seconds(sweep);
+    return std::min(share_of_a_name * left(), own > 0 ? most_times_own * own : left());
+  }
+
+  /// 0 where it did not run yet.
+  double own_seconds(const KnobSweep& sweep) const {
+    return median(sweeps_.trials[sweep.points[sweep.knob.own].trial].seconds);
   }
 
   /// The time of a trial that has not run; 0 where nothing tells it.
@@ -93,7 +104,7 @@ class SweepRun {
     if (const auto law = fit_power_law(times)) return law->at(point.number);
     if (sweep.knob.converges && !times.empty())
       return times.back().second * std::pow(point.number / times.back().first, cautious_exponent);
-    return median(sweeps_.trials[sweep.points[sweep.knob.own].trial].seconds);
+    return own_seconds(sweep);
   }
 
   Sweeps& sweeps_;

@@ -44,7 +44,7 @@ Sweeps plan_sweeps(const std::vector<Knob>& knobs, const SweepOptions& options);
 /// Runs every trial once, then those again that are to be timed more often, round by round. No run
 /// starts whose time, as the power law t = a·N^b of the knob's runs so far or the scene's own run
 /// foretells it, exceeds what is left of the budget; what is left out says so. A name, whose time
-/// nothing foretells, is stopped at half of what is left.
+/// nothing foretells, is stopped at half of what is left, and at 30 times the scene's own.
 void run_sweeps(Sweeps& sweeps, const Runner& run, const SweepOptions& options);
 
 }  // namespace supple

@@ -104,6 +104,21 @@ TEST(Sweeps, NamesRunLastAndCannotTakeTheWholeBudget) {
   EXPECT_LE(spent, options.budget);
 }
 
+TEST(Sweeps, ANameGetsThirtyTimesTheOwnTime) {
+  Sweeps sweeps = plan_sweeps({solver_knob()}, {});
+  std::vector<double> given;
+  run_sweeps(sweeps,
+             [&](const SceneOverrides& setting, double most) {
+               if (!setting.empty()) given.push_back(most);
+               TrialOutcome outcome;
+               outcome.status = setting.empty() ? Status::ok : Status::failed;
+               outcome.seconds = 2;
+               return outcome;
+             },
+             {});
+  EXPECT_EQ(given, (std::vector<double>{60, 60}));
+}
+
 TEST(Sweeps, FailedTrialsAreNotRepeated) {
   Sweeps sweeps = plan_sweeps({solver_knob()}, {});
   int runs = 0;
