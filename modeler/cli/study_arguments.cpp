@@ -22,10 +22,10 @@ constexpr const char* examples =
 Examples:
   supple study scene.yaml -o study/
   supple study scene.yaml -o study/ --quick --knobs particles,tolerance
-  supple study scene.yaml -o study/ --study-budget 120s)";
+  supple study scene.yaml -o study/ --study-budget 120s --target-error 0.5%)";
 
 /// "120s", "2min" or "120" [s].
-double parse_budget(const std::string& text) {
+double parse_time(const std::string& text, std::string_view option) {
   double unit = 1;
   std::string_view number = text;
   for (const auto& [suffix, seconds] : {std::pair<std::string_view, double>{"min", 60}, {"s", 1}})
@@ -35,9 +35,19 @@ double parse_budget(const std::string& text) {
     }
   const std::optional<double> value = to_number(number);
   if (!value || !(*value > 0))
-    throw UsageError(fmt::format("--study-budget {}: allowed: a time above 0, as 120s or 2min",
-                                 in_quotes(text)));
+    throw UsageError(
+        fmt::format("{} {}: allowed: a time above 0, as 120s or 2min", option, in_quotes(text)));
   return *value * unit;
+}
+
+/// "0.5%" or "0.005": over the diagonal.
+double parse_error(const std::string& text) {
+  const std::optional<Length> error = to_length(text);
+  if (!error || !(error->value > 0))
+    throw UsageError(fmt::format(
+        "--target-error {}: allowed: an error above 0, over the shape's diagonal, as 0.5% or 0.005",
+        in_quotes(text)));
+  return resolve(*error, 1);
 }
 
 std::vector<std::string> parse_names(const std::string& text) {
@@ -69,8 +79,14 @@ void StudyArguments::declare_study(CommandLine& line) {
               [this](const std::string& value) { knobs = parse_names(value); });
   line.option("--study-budget",
               {"TIME", "start no run that is predicted to exceed this in all (120s, 2min)"},
-              [this](const std::string& value) { budget = parse_budget(value); });
+              [this](const std::string& value) { budget = parse_time(value, "--study-budget"); });
   line.flag("--quick", "3 values of a knob instead of 5", [this] { levels = quick_levels; });
+  line.option("--target-error",
+              {"ERROR", "find the cheapest setting with this error, over the diagonal (0.5%)"},
+              [this](const std::string& value) { target_error = parse_error(value); });
+  line.option(
+      "--time-budget", {"TIME", "find the most accurate setting whose pose takes so long"},
+      [this](const std::string& value) { time_budget = parse_time(value, "--time-budget"); });
   line.begin_group("Output");
   line.option("-o,--output", {"FOLDER", "for tables and charts; needed"},
               [this](const std::string& value) { folder = value; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct StudyArguments {
   std::vector<std::string> knobs;
   int levels = 5;
   double budget = std::numeric_limits<double>::infinity();  ///< [s]
+  std::optional<double> target_error;                       ///< over the diagonal
+  std::optional<double> time_budget;                        ///< of one pose [s]
 
   /// False where the help was printed. Errors: UsageError.
   bool parse(Words words);

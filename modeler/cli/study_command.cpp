@@ -59,15 +59,25 @@ Runner pose_runner(const Mesh& shape, const Scene& scene) {
   };
 }
 
-Study run_all(const StudyArguments& arguments, const Mesh& shape, const Scene& scene) {
+/// The study, then what the user wishes to be found.
+void run_all(const StudyArguments& arguments, const Mesh& shape, const Scene& scene,
+             StudyRun& run) {
   const std::vector<Knob> knobs = collect_knobs(scene, arguments.levels);
   const std::vector<Knob> chosen = choose_knobs(knobs, arguments.knobs, "--knobs");
+  const Runner runner = pose_runner(shape, scene);
   ProgressLine line(arguments.run.quiet ? ProgressLine::Mode::silent
                                         : ProgressLine::Mode::if_terminal);
   SweepOptions options;
   options.budget = arguments.budget;
   options.progress = [&](const std::string& setting, double share) { line.show(setting, share); };
-  return study(knobs, chosen, pose_runner(shape, scene), options);
+  run.study = study(knobs, chosen, runner, options);
+  if (arguments.target_error) {
+    line.show("verify", 0);
+    run.for_error = {*arguments.target_error,
+                     choose_for_error(run.study, chosen, runner, *arguments.target_error)};
+  }
+  if (arguments.time_budget)
+    run.for_time = {*arguments.time_budget, choose_for_time(run.study, *arguments.time_budget)};
 }
 
 void write_outputs(const StudyRun& run, const OutputFolder& folder, const std::string& report) {
@@ -112,7 +122,7 @@ int run_study(Words words) {
   if (scene.shape.spacing)
     run.notes.push_back("shape.spacing is given: the study counts in particles instead");
   scene = with_counted_particles(std::move(scene), shape);
-  run.study = run_all(arguments, shape, scene);
+  run_all(arguments, shape, scene, run);
   run.total_seconds = watch.seconds();
 
   write_outputs(run, folder, arguments.report);

@@ -61,6 +61,21 @@ std::string source_finding(const std::vector<ErrorSource>& sources) {
                      fmt::join(texts, ", "));
 }
 
+/// As words for the command line, so that they can be pasted.
+std::string set_words(const SceneOverrides& settings) {
+  if (settings.empty()) return "the scene as it is";
+  std::string words;
+  for (const auto& [key, value] : settings)
+    words += fmt::format("{}--set {}={}", words.empty() ? "" : " ", key, value);
+  return words;
+}
+
+std::string choice_finding(const std::string& wish, const Choice& choice) {
+  if (!choice.met) return fmt::format("{} cannot be had: {}.", wish, choice.why_not);
+  return fmt::format("{}: {} (error {:.2g}, {:.2g} s).", wish, set_words(choice.settings),
+                     *choice.error, choice.seconds);
+}
+
 }  // namespace
 
 std::string row_text(const StudyRow& row) {
@@ -72,7 +87,8 @@ std::string cost_text(const PowerLaw& cost) {
   return times < 10 ? fmt::format("{:.1f}", times) : fmt::format("{:.0f}", times);
 }
 
-std::vector<std::string> study_findings(const Study& study) {
+std::vector<std::string> study_findings(const StudyRun& run) {
+  const Study& study = run.study;
   std::vector<std::string> findings = {own_finding(study)};
   if (study.pareto.empty())
     findings.push_back("No setting can be recommended: none came to an error with status ok.");
@@ -87,6 +103,12 @@ std::vector<std::string> study_findings(const Study& study) {
         "the reference's uncertainty, or they do not fall with the time.");
   if (study.sources.size() > 1) findings.push_back(source_finding(study.sources));
   if (study.reference) findings.push_back(reference_finding(*study.reference));
+  if (run.for_error)
+    findings.push_back(choice_finding(fmt::format("An error of {:.2g}", run.for_error->wish),
+                                      run.for_error->choice));
+  if (run.for_time)
+    findings.push_back(choice_finding(fmt::format("A pose within {:.2g} s", run.for_time->wish),
+                                      run.for_time->choice));
   return findings;
 }
 

@@ -41,7 +41,7 @@ std::string study_html(const StudyRun& run) {
   text += fmt::format("<h1>{}</h1>\n", xml_text(header.front()));
   for (std::size_t i = 1; i < header.size(); ++i)
     text += fmt::format("<p>{}</p>\n", xml_text(header[i]));
-  text += list("Findings", study_findings(run.study)) + svg(study_chart(run));
+  text += list("Findings", study_findings(run)) + svg(study_chart(run));
   text += "<h2>Runs</h2>\n<table>\n" + table_row("th", study_columns());
   for (const StudyRow& row : run.study.rows) text += table_row("td", study_cells(run.study, row));
   text += "</table>\n" + list("Not ok, or left out", study_shortfalls(run.study)) +

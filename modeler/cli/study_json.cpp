@@ -62,6 +62,17 @@ Json cost_json(const std::optional<PowerLaw>& cost) {
           {"seconds_factor_for_10_times_less_error", std::pow(10, -cost->exponent)}};
 }
 
+Json choice_json(const std::optional<WishedChoice>& wished) {
+  if (!wished) return nullptr;
+  const Choice& choice = wished->choice;
+  return {{"wish", wished->wish},
+          {"met", choice.met},
+          {"set", settings_json(choice.settings)},
+          {"error", number(choice.error)},
+          {"seconds", choice.seconds},
+          {"why_not", choice.why_not}};
+}
+
 }  // namespace
 
 std::string study_json(const StudyRun& run) {
@@ -83,7 +94,9 @@ std::string study_json(const StudyRun& run) {
        {"pareto", study.pareto},
        {"cost", cost_json(study.cost)},
        {"sources", sources},
-       {"findings", study_findings(study)},
+       {"for_error", choice_json(run.for_error)},
+       {"for_time", choice_json(run.for_time)},
+       {"findings", study_findings(run)},
        {"shortfalls", study_shortfalls(study)},
        {"notes", run.notes},
        {"seconds", {{"total", run.total_seconds}}}});

@@ -4,9 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "modeler/study/study.h"
+#include "modeler/study/choice.h"
 
 namespace supple {
+
+/// What the user wished for and the setting that the study found for it.
+struct WishedChoice {
+  double wish = 0;  ///< an error over the diagonal, or seconds
+  Choice choice;
+};
 
 /// A run of `supple study`: what its tables, charts and pages tell.
 struct StudyRun {
@@ -15,6 +21,7 @@ struct StudyRun {
   std::string processor, build;
   int threads = 1;
   Study study;
+  std::optional<WishedChoice> for_error, for_time;
   std::vector<std::string> notes;
   double total_seconds = 0;
 };
@@ -33,7 +40,7 @@ std::string cost_text(const PowerLaw& cost);
 std::vector<std::string> study_header(const StudyRun& run);
 
 /// What the study found, a sentence each.
-std::vector<std::string> study_findings(const Study& study);
+std::vector<std::string> study_findings(const StudyRun& run);
 
 /// What failed, is degraded or was left out, a line each, with the reason.
 std::vector<std::string> study_shortfalls(const Study& study);

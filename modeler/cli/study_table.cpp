@@ -80,8 +80,7 @@ std::string study_text(const StudyRun& run) {
       row += line[i] + std::string(widths[i] - letters(line[i]) + 2, ' ');
     text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
   }
-  for (const std::vector<std::string>& part :
-       {study_findings(run.study), study_shortfalls(run.study)})
+  for (const std::vector<std::string>& part : {study_findings(run), study_shortfalls(run.study)})
     if (!part.empty()) text += fmt::format("\n{}\n", fmt::join(part, "\n"));
   return text;
 }

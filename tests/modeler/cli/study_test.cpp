@@ -137,13 +137,28 @@ TEST_F(StudyProgramTest, RowsHoldWhatWasMeasured) {
 }
 
 TEST_F(StudyProgramTest, EveryKeyOfTheJsonIsInTheManual) {
-  ASSERT_EQ(study({"-o", "study", "--knobs", "particles"}).code, 0);
+  ASSERT_EQ(
+      study({"-o", "study", "--knobs", "particles", "--target-error", "5%", "--time-budget", "60s"})
+          .code,
+      0);
   const std::string manual = bytes_of(SUPPLE_SOURCE_DIR "/docs/study.md");
   std::set<std::string> keys;
   collect_keys(Json::parse(bytes_of(folder / "study/study.json")), keys);
   EXPECT_GT(keys.size(), 30u);
   for (const std::string& key : keys)
     EXPECT_NE(manual.find("`" + key + "`"), std::string::npos) << key;
+}
+
+TEST_F(StudyProgramTest, FindsASettingForATime) {
+  const ProgramResult run =
+      study({"-o", "study", "--knobs", "particles", "--time-budget", "1000s"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("A pose within 1e+03 s: "), std::string::npos) << run.out;
+  const Json json = Json::parse(bytes_of(folder / "study/study.json"));
+  EXPECT_EQ(json["for_time"]["met"], true);
+  const Json& best = json["rows"][json["pareto"].back().get<std::size_t>()];
+  EXPECT_EQ(json["for_time"]["error"], best["error"]);
+  EXPECT_EQ(json["for_error"], nullptr);
 }
 
 TEST_F(StudyProgramTest, ASpacingIsCountedInParticles) {
@@ -168,6 +183,8 @@ TEST_F(StudyProgramTest, MistakesAreNamed) {
   expect_usage_error(study({"-o", "s", "--knobs", "particels"}), "did you mean 'particles'?");
   expect_usage_error(study({"-o", "s", "--study-budget", "0"}), "a time above 0");
   expect_usage_error(study({"-o", "s", "--study-budget", "120m"}), "a time above 0");
+  expect_usage_error(study({"-o", "s", "--time-budget", "0s"}), "--time-budget '0s'");
+  expect_usage_error(study({"-o", "s", "--target-error", "-1%"}), "an error above 0");
   folder.put("scene.yaml", "shape: {mesh: bar.obj}\n");
   expect_usage_error(study({"-o", "s"}), "scene.yaml:1:8: pose is missing");
   folder.put("scene.yaml", "shape: {mesh: bar.obj}\npose: {}\n");
