@@ -1,5 +1,7 @@
 #include "io/chart/sketch.h"
 
+#include <algorithm>
+
 namespace supple {
 namespace {
 

@@ -1,5 +1,7 @@
 #include "modeler/cli/study_arguments.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "io/errors.h"
@@ -13,8 +15,7 @@ constexpr int quick_levels = 3;
 
 constexpr const char* description =
     "Shows what accuracy costs in time: varies the knobs of a scene one by one, times its pose "
-    "with "
-    "each, and measures how far it is from the result of ever more particles.";
+    "with each, and measures how far it is from the result of ever more particles.";
 
 constexpr const char* examples =
     R"(Writes study.csv, study.json, study.svg, study.png and study.html into the folder.

@@ -101,7 +101,8 @@ std::vector<std::string> study_findings(const StudyRun& run) {
     findings.push_back(
         "What less error costs cannot be told: fewer than two errors by particles are greater than "
         "the reference's uncertainty, or they do not fall with the time.");
-  if (study.sources.size() > 1) findings.push_back(source_finding(study.sources));
+  if (study.sources.size() > 1 && study.sources.front().error > 0)
+    findings.push_back(source_finding(study.sources));
   if (study.reference) findings.push_back(reference_finding(*study.reference));
   if (run.for_error)
     findings.push_back(choice_finding(fmt::format("An error of {:.2g}", run.for_error->wish),

@@ -30,6 +30,15 @@ std::vector<Knob> needed_knobs(const std::vector<Knob>& knobs, const std::vector
   return needed;
 }
 
+/// What no row shows is not timed: one run tells its result.
+void run_unseen_once(const std::vector<Knob>& chosen, Sweeps& sweeps) {
+  for (const KnobSweep& sweep : sweeps.knobs)
+    for (const SweepPoint& point : sweep.points)
+      if (Trial& trial = sweeps.trials[point.trial];
+          !is_chosen(sweep.knob, chosen) && !trial.settings.empty())
+        trial.wanted_runs = 1;
+}
+
 /// The limit of the knob that converges.
 std::optional<Reference> converged(const Sweeps& sweeps) {
   std::vector<GridLevel> levels;
@@ -176,6 +185,7 @@ Study study(const std::vector<Knob>& knobs, const std::vector<Knob>& chosen, con
             const SweepOptions& options) {
   const std::vector<Knob> needed = needed_knobs(knobs, chosen);
   Sweeps sweeps = plan_sweeps(needed, options);
+  run_unseen_once(chosen, sweeps);
   run_sweeps(sweeps, run, options);
 
   Study result;

@@ -7,15 +7,14 @@
 
 namespace supple {
 
-/// How a study varies a member, to show what its values cost and bring; in doc order from coarse to
-/// fine. The scene's own value is always among them.
+/// How a study varies a member, from coarse to fine, to show what its values cost and bring. The
+/// scene's own value is always among them.
 struct Sweep {
   enum class Kind {
     none,    ///< it does not
     names,   ///< all names of an enumeration
     range,   ///< `from` to `to` in equal ratios
-    doubles  ///< the scene's own value halved once, then doubled; its results converge to the exact
-             ///< one as the degrees of freedom grow
+    doubles  ///< the own value halved once, then doubled; the results converge to the exact one
   };
   Kind kind = Kind::none;
   double from = 0, to = 0;  ///< of a range

@@ -1,5 +1,6 @@
 // Power laws, Pareto sets and the extrapolated reference.
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -152,6 +152,10 @@ TEST(Study, RunsTheParticlesForKnobsThatAreComparedWithThem) {
   const Study result = study(knobs, {solver_knob()}, Manufactured());
   EXPECT_EQ(result.rows.size(), 3u);
   for (const StudyRow& row : result.rows) EXPECT_TRUE(row.error) << row.value;
+  for (const Trial& trial : result.trials) {
+    const bool shown = trial.settings.empty() || trial.settings.front().first == "pose.solver";
+    EXPECT_EQ(trial.seconds.size(), shown ? 3u : 1u) << setting_text(trial.settings);
+  }
 }
 
 TEST(Study, OfOneLevelAloneTellsNoError) {

@@ -1,5 +1,7 @@
 #include "modeler/study/sweeps.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/modeler/study/manufactured.h"
