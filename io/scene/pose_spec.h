@@ -151,7 +151,7 @@ struct PoseSpec {
            .exclusive_min = true});
     visit("mirror", self.mirror,
           {.doc = "plane: every handle acts mirrored on its other side too"});
-    visit("solver", self.solver, {.doc = "minimiser"});
+    visit("solver", self.solver, {.doc = "minimiser", .sweep = {.kind = Sweep::Kind::names}});
     visit("hard_handles", self.hard_handles,
           {.doc = "true: handles are met exactly, as far as the particles can and they do not "
                   "contradict each other"});
@@ -160,7 +160,10 @@ struct PoseSpec {
     visit("max_iterations", self.max_iterations,
           {.doc = "limit for one solve", .min = 1, .max = 1e6});
     visit("tolerance", self.tolerance,
-          {.doc = "relative change of energy at which a solve stops", .min = 1e-15, .max = 0.1});
+          {.doc = "relative change of energy at which a solve stops",
+           .min = 1e-15,
+           .max = 0.1,
+           .sweep = {.kind = Sweep::Kind::range, .from = 1e-2, .to = 1e-12, .exact = 1e-13}});
     visit("substeps", self.substeps,
           {.doc = "steps on the handles' way; default: as their turns and moves need",
            .min = 1,

@@ -53,7 +53,7 @@ void read_value(E& value, const SceneItem& item, const Described&) {
 
 template <class T>
 void read_value(std::optional<T>& value, const SceneItem& item, const Described& described) {
-  read_value(value.emplace(), item, described);
+  read_value(value ? *value : value.emplace(), item, described);
 }
 
 template <class T>

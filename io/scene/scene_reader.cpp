@@ -59,6 +59,15 @@ Scene read_scene_text(const std::string& text, const std::string& name,
   return scene;
 }
 
+Scene overridden(Scene scene, const SceneOverrides& overrides) {
+  for (const auto& [path, value] : overrides) {
+    YamlNode root;
+    override_value(root, path, value);
+    read_value(scene, {&root, "", root.place}, {.doc = "the scene"});
+  }
+  return scene;
+}
+
 Scene read_scene(const std::filesystem::path& path, const SceneOverrides& overrides) {
   return read_scene_text(read_file(path), path.string(), path.parent_path(), overrides);
 }

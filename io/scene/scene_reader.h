@@ -21,6 +21,10 @@ Scene read_scene(const std::filesystem::path& path, const SceneOverrides& overri
 Scene read_scene_text(const std::string& text, const std::string& name,
                       const std::filesystem::path& folder, const SceneOverrides& overrides = {});
 
+/// `scene` with values replaced as --set does, of maps only; its rules are checked again.
+/// Errors: UsageError that names "--set path=value".
+Scene overridden(Scene scene, const SceneOverrides& overrides);
+
 /// The manual of the scene language (Markdown), made from `describe`.
 std::string scene_manual();
 

@@ -17,8 +17,24 @@ std::span<const std::string_view> later_keys(const ShapeSpec&) {
   return keys;
 }
 
-void check_rules(const Scene& scene, const SceneItem& item) {
-  if (scene.pose && !find_item(item, "shape"))
+namespace {
+
+/// Where a key is given; the whole map's place where the value was there before.
+Place place_of(const SceneItem& item, std::string_view key) {
+  const auto given = find_item(item, key);
+  return given ? given->place : item.place;
+}
+
+[[noreturn]] void complain_beside_fix(const SceneItem& movement) {
+  complain(movement.place, fmt::format("{} stands beside fix, which holds its part in place; "
+                                       "allowed: only with move",
+                                       movement.path));
+}
+
+}  // namespace
+
+void check_rules(const Scene& scene, const SceneItem&) {
+  if (scene.pose && scene.shape.file().empty())
     complain(scene.pose->place,
              "shape is missing: a pose needs shape: {mesh: file} or {points: file}");
 }
@@ -27,26 +43,20 @@ void check_rules(const ShapeSpec& shape, const SceneItem& item) {
   if (shape.file().empty())
     complain(shape.place, "shape.mesh is missing: the file with the mesh, or shape.points");
   if (!shape.mesh.empty() && !shape.points.empty())
-    complain(find_item(item, "points")->place,
+    complain(place_of(item, "points"),
              "shape.points: shape.mesh is given too; allowed: one of them");
   if (shape.particles && shape.spacing)
-    complain(find_item(item, "spacing")->place,
+    complain(place_of(item, "spacing"),
              "shape.spacing: shape.particles is given too; allowed: one of them");
 }
 
 void check_rules(const PoseSpec& pose, const SceneItem& item) {
   if (pose.hard_handles && pose.solver == MinimizerKind::trust_region)
-    complain(find_item(item, "hard_handles")->place,
+    complain(place_of(item, "hard_handles"),
              "pose.hard_handles: true, with solver: trust_region; allowed: with lbfgs, nlopt");
   if (pose.region_blend && !pose.region)
-    complain(find_item(item, "region_blend")->place,
+    complain(place_of(item, "region_blend"),
              "pose.region_blend: pose.region is missing; allowed: only with it");
-}
-
-[[noreturn]] static void complain_beside_fix(const SceneItem& movement) {
-  complain(movement.place, fmt::format("{} stands beside fix, which holds its part in place; "
-                                       "allowed: only with move",
-                                       movement.path));
 }
 
 void check_rules(const HandleSpec& handle, const SceneItem& item) {

@@ -26,6 +26,8 @@ EnumNames<FileUnit> enum_names(FileUnit);
 
 /// What is to be deformed, and how finely.
 struct ShapeSpec {
+  static constexpr int usual_particles = 200;
+
   Place place;
   std::string mesh;    ///< path, relative to the scene file; this or `points` is given
   std::string points;  ///< the same, of a point cloud
@@ -37,6 +39,7 @@ struct ShapeSpec {
   KernelKind kernel = KernelKind::polynomial;
   GradientKind gradient = GradientKind::full;
   SupportKind supports = SupportKind::round;
+  double support_scale = 1;
   PlacementKind placement = PlacementKind::even;
   QuadratureKind quadrature = QuadratureKind::automatic;
   CouplingKind coupling = CouplingKind::inside;
@@ -52,7 +55,10 @@ struct ShapeSpec {
           {.doc = "unit of the shape's file and of lengths; a pose is the same "
                   "in all"});
     visit("particles", self.particles,
-          {.doc = "number of particles that carry the field (default 200)", .min = 1, .max = 1e6});
+          {.doc = "number of particles that carry the field (default 200)",
+           .min = 1,
+           .max = 1e6,
+           .sweep = {.kind = Sweep::Kind::doubles, .usual = usual_particles}});
     visit("spacing", self.spacing,
           {.doc = "distance of neighbouring particles, instead of their number",
            .unit = "length",
@@ -63,18 +69,26 @@ struct ShapeSpec {
            .unit = "length",
            .min = 0,
            .exclusive_min = true});
-    visit("basis", self.basis, {.doc = "polynomials that the field reproduces exactly"});
+    visit("basis", self.basis,
+          {.doc = "polynomials that the field reproduces exactly",
+           .sweep = {.kind = Sweep::Kind::names}});
     visit("kernel", self.kernel, {.doc = "weight function of the moving least squares"});
     visit("gradient", self.gradient,
           {.doc = "deformation gradients: derivatives of the field, or slopes of a linear fit"});
     visit("supports", self.supports,
           {.doc = "shape of the particles' supports; stretched ones follow thin parts"});
+    visit("support_scale", self.support_scale,
+          {.doc = "size of the particles' supports over what covers the shape well",
+           .min = 0.5,
+           .max = 3,
+           .sweep = {.kind = Sweep::Kind::range, .from = 0.75, .to = 1.6}});
     visit("placement", self.placement,
           {.doc = "how particles are placed: evenly, or in octree cells (their number is then met "
                   "nearly)"});
     visit("quadrature", self.quadrature,
           {.doc = "where energies are sampled: at particles (auto: and on the surface), or in "
-                  "octree cells"});
+                  "octree cells",
+           .sweep = {.kind = Sweep::Kind::names}});
     visit("coupling", self.coupling,
           {.doc = "what parts feel of each other: by ways inside the shape, or across gaps too"});
   }

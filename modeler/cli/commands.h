@@ -16,5 +16,6 @@ int run_pose(Words words);
 int run_inspect(Words words);
 int run_render(Words words);
 int run_plan(Words words);
+int run_study(Words words);
 
 }  // namespace supple

@@ -30,10 +30,10 @@ constexpr std::array<Command, 9> commands{{
     {"inspect", run_inspect, "what a shape file holds, and whether it can be posed"},
     {"render", run_render, "draw a mesh into a picture"},
     {"plan", run_plan, "which effects a scene calls for, and why"},
+    {"study", run_study, "what accuracy costs in time, for a scene"},
     {"animate", nullptr, ""},
     {"simulate", nullptr, ""},
     {"modes", nullptr, ""},
-    {"study", nullptr, ""},
     {"convert", nullptr, ""},
 }};
 

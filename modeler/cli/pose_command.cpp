@@ -9,6 +9,7 @@
 #include "modeler/cli/pose_arguments.h"
 #include "modeler/cli/pose_files_reader.h"
 #include "modeler/cli/progress_line.h"
+#include "modeler/cli/read_shape.h"
 #include "modeler/cli/report_json.h"
 #include "modeler/cli/summary.h"
 #include "modeler/domain/shape_error.h"
@@ -19,15 +20,6 @@ namespace supple {
 namespace {
 
 constexpr Color held_color{0.10f, 0.30f, 0.75f}, moved_color{0.85f, 0.05f, 0.05f};
-
-/// The shape as the scene names it: a file given as points is one, whatever faces it holds.
-Mesh read_shape(const Scene& scene) {
-  Mesh shape = read_mesh(scene.folder / scene.shape.file());
-  if (scene.shape.points.empty() || shape.face_count() == 0) return shape;
-  shape.notes.push_back(
-      fmt::format("{} faces are left out: shape.points takes vertices alone", shape.face_count()));
-  return points_of(std::move(shape));
-}
 
 PoseResult solve(const Mesh& shape, const Scene& scene, const PoseFiles& files,
                  ProgressLine& line) {

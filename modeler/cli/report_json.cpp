@@ -1,23 +1,11 @@
 #include "modeler/cli/report_json.h"
 
-#include <fstream>
-
 #include "io/output_file.h"
 #include "modeler/cli/json_text.h"
+#include "modeler/cli/machine.h"
 
 namespace supple {
 namespace {
-
-/// Greatest memory that the program held so far [bytes].
-long peak_memory() {
-  std::ifstream status("/proc/self/status");
-  const std::string key = "VmHWM:";
-  for (std::string word; status >> word;) {
-    long kilobytes = 0;
-    if (word == key && status >> kilobytes) return 1024 * kilobytes;
-  }
-  return 0;
-}
 
 Json pairs_json(const std::vector<std::pair<std::string, double>>& pairs) {
   Json json = Json::object();

@@ -20,8 +20,6 @@
 namespace supple {
 namespace {
 
-constexpr int default_particles = 200;
-
 /// What the quadrature points on the surface take of the volume of the particle nearest to them.
 /// Enough to hold the surface; so little that the sum stays centred in the particle's cell: the
 /// volume change of a twisted bar then depends on the number of particles by 0.1 %, not by 3 %.
@@ -70,7 +68,7 @@ Box box_of(const Mesh& mesh, const std::vector<bool>& used) {
 /// `diagonal` of the shape in the user's coordinates; 1 in ours.
 ParticleSamplingOptions sampling_options(const ShapeSpec& spec, double diagonal) {
   ParticleSamplingOptions options;
-  options.count = spec.particles.value_or(default_particles);
+  options.count = spec.particles.value_or(ShapeSpec::usual_particles);
   if (spec.spacing) options.spacing = resolve(*spec.spacing, diagonal) / diagonal;
   return options;
 }
@@ -95,6 +93,12 @@ ParticleSampling place_particles(const Region& region, const ShapeSpec& spec, do
 /// How many particles a support would reach if they stood `spacing` apart.
 double neighbors_within(double support, double spacing) {
   return 4 * std::numbers::pi / 3 * std::pow(support / spacing, 3);
+}
+
+/// What supports reach by ways inside changes with them.
+void scale_supports(double scale, const DetoursWithin& detours_within, Supports& supports) {
+  supports.radii *= scale;
+  if (detours_within) supports.detours = detours_within(supports.radii, supports.radii.maxCoeff());
 }
 
 Quadrature with_particles_first(const Particles& particles, const Quadrature& others) {
@@ -208,8 +212,10 @@ double Solid::choose_particle_supports(const ShapeSpec& spec) {
   // Those of an octree's particles follow from its leaves.
   if (particles_.supports.size() > 0)
     options.neighbors = neighbors_within(particles_.supports.minCoeff(), particles_.spacing);
+  const DetoursWithin detours_within = detours_within_supports();
   Supports supports = choose_supports(particles_.positions, particles_.spacing, cover, spec.kernel,
-                                      options, detours_within_supports());
+                                      options, detours_within);
+  if (spec.support_scale != 1) scale_supports(spec.support_scale, detours_within, supports);
   particles_.supports = std::move(supports.radii);
   particles_.stretches = std::move(supports.stretches);
   detours_ = std::move(supports.detours);

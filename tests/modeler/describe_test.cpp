@@ -34,6 +34,14 @@ class DefaultsCheck {
       EXPECT_GE(static_cast<double>(value), described.min) << name;
       EXPECT_LE(static_cast<double>(value), described.max) << name;
     }
+    if (described.sweep.kind == Sweep::Kind::range) {
+      const Sweep& sweep = described.sweep;
+      for (const double end : {sweep.from, sweep.to, sweep.exact != 0 ? sweep.exact : sweep.to}) {
+        EXPECT_GT(end, 0) << name << " is swept in equal ratios";
+        EXPECT_GE(end, described.min) << name;
+        EXPECT_LE(end, described.max) << name;
+      }
+    }
   }
 
   std::size_t count() const { return names_.size(); }

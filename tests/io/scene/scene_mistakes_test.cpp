@@ -43,7 +43,8 @@ TEST(SceneMistakes, InKeysAndStructure) {
       {"shap: {mesh: a}", "1:1", "unknown key 'shap'; allowed: shape, pose; did you mean 'shape'?"},
       {"shape:\n  mesh: a\n  partcles: 200", "3:3",
        "unknown key 'partcles' in shape; allowed: mesh, points, units, particles, spacing, size, "
-       "basis, kernel, gradient, supports, placement, quadrature, coupling; did you mean "
+       "basis, kernel, gradient, supports, support_scale, placement, quadrature, coupling; did you "
+       "mean "
        "'particles'?"},
       {"shape: {mesh: a}\nshape: {mesh: b}", "2:1", "'shape' stands twice; it stands in line 1"},
       {"shape:\n  mesh: a\n  \"mesh\": b", "3:3", "'mesh' stands twice"},

@@ -12,6 +12,7 @@
 #include "solver/energy/energy_sum.h"
 #include "solver/energy/rigidity.h"
 #include "solver/field/samples.h"
+#include "tests/support/fingers.h"
 #include "tests/support/shapes.h"
 
 namespace supple {
@@ -116,6 +117,37 @@ Solid solid_of(const Mesh& mesh, PlacementKind placement, int particles) {
 Samples samples_of(const Solid& solid, const Points& points) {
   const MovingLeastSquares<3> field(solid.particles().positions, solid.particles().supports);
   return sample_field(field, points, SampleContent::values_and_gradients);
+}
+
+TEST(SupportScale, MultipliesTheAutomaticSupports) {
+  for (const double scale : {0.8, 1.5}) {
+    ShapeSpec spec;
+    spec.particles = 100;
+    spec.support_scale = scale;
+    Solid solid(slim_bar(), spec);
+    solid.choose_particle_supports(spec);
+    const Eigen::VectorXd usual =
+        solid_of(slim_bar(), PlacementKind::even, 100).particles().supports;
+    EXPECT_LT((solid.particles().supports - scale * usual).norm(), 1e-12 * usual.norm());
+  }
+}
+
+TEST(SupportScale, WiderSupportsReachByTheWayInsideToo) {
+  const Mesh fingers = make_two_fingers(0.14);
+  const PoseResult result =
+      pose(fingers, read_scene_text("shape: {mesh: fingers.obj, spacing: 0.7, support_scale: 1.4}\n"
+                                    "pose:\n"
+                                    "  weights: {handles: 1e6}\n"
+                                    "  handles:\n"
+                                    "    - fix: z<2.6\n"
+                                    "    - {move: z>7.6 and x<0, by: [-30%, 0, 0]}\n",
+                                    "test", {}));
+  double way = 0;
+  for (Index i = 0; i < fingers.positions.rows(); ++i)
+    if (fingers.positions(i, 0) > 0 && fingers.positions(i, 2) > 0)
+      way = std::max(way, (result.mesh.positions.row(i) - fingers.positions.row(i)).norm());
+  const double pull = 0.3 * bounding_box(fingers.positions).diagonal();
+  EXPECT_LT(way, 0.01 * pull) << "the other finger stays";
 }
 
 TEST(CellQuadratureOfSolids, ListsTheParticlesFirstWithoutVolume) {
