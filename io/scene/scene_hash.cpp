@@ -37,6 +37,7 @@ class SceneText {
   void add(const std::string& value) { text_ += fmt::format("{}:{}", value.size(), value); }
   void add(const Length& length) { text_ += to_string(length); }
   void add(const Selection& selection) { add(selection.text); }
+  void add(const NamedFile& file) { add(file.path); }
   void add(const Vec3& v) { text_ += fmt::format("{} {} {}", v[0], v[1], v[2]); }
 
   void add(const LengthVector& vector) {
