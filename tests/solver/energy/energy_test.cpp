@@ -169,7 +169,8 @@ TEST_P(EveryEnergy, DoesNotFeelTurnsOfFlatBodies) {
       EXPECT_LT(gradient.norm(), 1e-9);
     }
     // They do feel being stretched along what they span, if they feel anything near rest.
-    if (energy->stiffness() > 0) EXPECT_GT(sum.evaluate(0.1 * x), 1e-3);
+    if (energy->stiffness() == 0) continue;
+    EXPECT_GT(sum.evaluate(0.1 * x), 1e-3);
   }
 }
 
