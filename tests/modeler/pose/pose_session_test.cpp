@@ -6,6 +6,7 @@
 
 #include "io/errors.h"
 #include "modeler/pose/pose.h"
+#include "solver/core/random.h"
 #include "tests/support/bar_scene.h"
 #include "tests/support/shapes.h"
 
