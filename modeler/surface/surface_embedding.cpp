@@ -18,6 +18,7 @@ SurfaceEmbedding::SurfaceEmbedding(const MovingLeastSquares<3>& field, const Sam
                                    const Points& vertices, SurfaceKind kind)
     : kind_(kind),
       order_(field.options().order),
+      particles_(field.positions()),
       quadrature_(quadrature),
       blocks_(weighting_field(field, kind), vertices) {
   SUPPLE_CHECK(quadrature.size() >= field.positions().rows(), "the particles come first");
@@ -58,9 +59,8 @@ RigidMotion SurfaceEmbedding::rigid_part(const Points& u, const Eigen::VectorXd&
   // Where nothing moved, not even rounding may show.
   if (u.isZero(0)) return motion;
   if (kind_ == SurfaceKind::particle_gradients || order_ != BasisOrder::constant) {
-    const auto rest = quadrature_.points.topRows(u.rows());
-    moved = rest + u;
-    return best_fit_motion(rest, moved, volumes);
+    moved = particles_ + u;
+    return best_fit_motion(particles_, moved, volumes);
   }
   // A field of order zero does not reproduce turns: only the translation may be taken out of it.
   motion.t = u.transpose() * volumes / volumes.sum();
@@ -73,7 +73,7 @@ void SurfaceEmbedding::find_remainder(const Points& u, const RigidMotion& rigid,
   scratch.remainder.resize(by_field ? u.rows() : 0, 3);
   scratch.maps.resize(by_field ? 0 : u.rows(), 12);
   for (Index j = 0; j < u.rows(); ++j) {
-    const Vec3 x = quadrature_.points.row(j).transpose();
+    const Vec3 x = particles_.row(j).transpose();
     const Vec3 turned = (rigid.R - Mat3::Identity()) * x + rigid.t;
     if (by_field) {
       scratch.remainder.row(j) = (unit * (u.row(j).transpose() - turned)).cast<float>().transpose();

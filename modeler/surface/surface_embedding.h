@@ -60,6 +60,7 @@ class SurfaceEmbedding {
 
   SurfaceKind kind_;
   BasisOrder order_;
+  const Points particles_;  ///< at rest
   const Samples& quadrature_;
   BlockedField blocks_;
 };

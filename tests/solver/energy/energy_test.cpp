@@ -200,9 +200,10 @@ TEST_P(EveryEnergy, PreconditionerLiesAboveItAtRest) {
 TEST_P(EveryEnergy, DoesNotFeelRigidMotions) {
   EnergySum sum(body.particles.size());
   sum.add(*energy, body.samples, body.particles.volumes, 1);
-  const Points u = random_displacements(body.particles.size(), 0.05, 3);
-  const Mat3 R = Eigen::AngleAxisd(2.5, Vec3(1, 2, 3).normalized()).matrix();
   const Points& x = body.particles.positions;
+  Points u = random_displacements(body.particles.size(), 0.05, 3);
+  if (energy->stiffness() == 0) u -= 0.45 * x;  // a barrier is not felt near rest
+  const Mat3 R = Eigen::AngleAxisd(2.5, Vec3(1, 2, 3).normalized()).matrix();
   const Points turned = ((x + u) * R.transpose()).rowwise() + Eigen::RowVector3d(5, -3, 1);
   const double before = sum.evaluate(u);
   EXPECT_GT(before, 1e-4);
@@ -211,7 +212,7 @@ TEST_P(EveryEnergy, DoesNotFeelRigidMotions) {
     EXPECT_GT(sum.evaluate(turned - x), 10 * before);
     return;
   }
-  EXPECT_NEAR(sum.evaluate(turned - x), before, 1e-11 * before);
+  EXPECT_NEAR(sum.evaluate(turned - x), before, 1e-10 * before);
 }
 
 TEST_P(EveryEnergy, StiffnessBoundsTheCurvatureAtRest) {
