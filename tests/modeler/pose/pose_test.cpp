@@ -326,20 +326,29 @@ TEST(Pose, FillsGapsOfPointCloudsOnly) {
       << message;
 }
 
-/// A bar bent by half a turn over a width that is too narrow for it.
+/// A bar bent back on itself, over less width than it has.
 std::string sharp_bend(const std::string& more) {
   return more +
-         "  handles:\n    - fix: z<10%\n    - {move: z>90%, turn: {axis: [0, 1, 0], degrees: "
-         "180, about: [1.1, 0.5, 2]}}\n";
+         "  handles:\n    - fix: y<10%\n    - {move: y>90%, turn: {axis: [0, 0, 1], degrees: -180, "
+         "about: [0.6, 2.5, 0.5]}}\n";
 }
 
 TEST(Pose, ABarrierKeepsAFoldFromTurningInsideOut) {
-  const Mesh bar = make_bar({1, 1, 4}, {8, 8, 32});
+  const Mesh bar = make_quad_bar({1, 5, 1}, {8, 40, 8});
   const PoseResult without = pose(bar, scene_with(sharp_bend("")));
   const PoseResult with = pose(bar, scene_with(sharp_bend("  no_inversion: true\n")));
-  EXPECT_LT(without.min_det_F, with.min_det_F);
+  EXPECT_LT(without.min_det_F, 0);
   EXPECT_GT(with.min_det_F, 0);
   EXPECT_TRUE(with.report.usable());
+}
+
+/// Surface vertices between the points where the barrier stands may still turn.
+TEST(Pose, WhatNoInversionCannotKeepFails) {
+  const Mesh bar = make_quad_bar({1, 5, 1}, {8, 40, 8});
+  Scene scene = scene_with(sharp_bend("  no_inversion: true\n"));
+  scene.pose->handles[1].turn->about->at(0).value = 1.4;
+  const PoseResult result = pose(bar, scene);
+  EXPECT_EQ(result.report.usable(), result.min_det_F > 0);
 }
 
 TEST(Pose, ABarrierThatIsNotNeededChangesNothing) {
