@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 ./setup.sh --bench
-cmake --preset release -D SUPPLE_BENCH=ON
+cmake --preset release -D SUPPLE_TESTS=ON -D SUPPLE_BENCH=ON
 cmake --build --preset release --target pose_bench speed_report
 results=build/release/bench
 mkdir -p "$results"
