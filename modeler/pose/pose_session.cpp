@@ -21,12 +21,6 @@ const Scene& checked(const Scene& scene) {
   return scene;
 }
 
-double total_energy(const Report& report) {
-  double sum = 0;
-  for (const auto& [name, value] : report.energies) sum += value;
-  return sum;
-}
-
 }  // namespace
 
 PoseSession::PoseSession(const Mesh& mesh, const Scene& scene)
@@ -77,7 +71,8 @@ Report PoseSession::release() {
   const Report polished = solver_->polish(options(), here);
   const Report walked = solver_->solve(
       options(), [](double) {}, from_rest);
-  const bool keep = polished.usable() && total_energy(polished) < total_energy(walked);
+  const bool keep =
+      polished.usable() && (!walked.usable() || total_energy(polished) < total_energy(walked));
   u_.leftCols<3>() = keep ? here : from_rest;
   return keep ? polished : walked;
 }

@@ -28,12 +28,6 @@ std::vector<bool> particles_held(const Samples& quadrature, const Samples& handl
   return pieces.reached_by(handles);
 }
 
-double total_energy(const Report& report) {
-  double sum = 0;
-  for (const auto& [name, value] : report.energies) sum += value;
-  return sum;
-}
-
 /// Adds a step's reasons and iterations to the whole way's.
 void merge(const Report& step, Report& way) {
   way.iterations += step.iterations;
@@ -54,6 +48,12 @@ void merge(const Report& step, Report& way) {
 }
 
 }  // namespace
+
+double total_energy(const Report& report) {
+  double sum = 0;
+  for (const auto& [name, value] : report.energies) sum += value;
+  return sum;
+}
 
 PoseSolver::PoseSolver(const MovingLeastSquares<3>& field, const Samples& quadrature,
                        const Eigen::VectorXd& volumes, const HandleSamples& handles,

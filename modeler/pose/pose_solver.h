@@ -22,6 +22,9 @@ struct PoseSolveOptions {
   bool hard_handles = false;  ///< met exactly, as far as they can be
 };
 
+/// The sum of a report's energies.
+double total_energy(const Report& report);
+
 /// The pose energy of one shape, E = λ1 E_handles + λ2 E_rigidity + λ3 E_volume
 /// (Adams & Wicke 2009, Eq. 78), and the way to its minimum.
 class PoseSolver {

@@ -50,6 +50,11 @@ Lbfgs::Result Lbfgs::minimize(const EnergySum& energy, const Preconditioner& pre
   Result result;
   forget();
   result.energy = evaluate(problem, u, result);
+  if (!std::isfinite(result.energy)) {
+    ++result.not_finite;
+    result.stop = Stop::stuck;
+    return result;
+  }
   derive_by_unknowns(problem);
   // A minimum of zero, as of a rigid motion, is come closer to for ever.
   const double nothing = options.tolerance * options.tolerance * result.energy;

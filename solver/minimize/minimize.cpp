@@ -1,6 +1,5 @@
 #include "solver/minimize/minimize.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -1,5 +1,7 @@
 #include "solver/minimize/lbfgs.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "solver/energy/handle.h"
@@ -84,6 +86,16 @@ TEST_F(LbfgsTest, EndsAtOnceWhereNothingPulls) {
   const Lbfgs::Result result = Lbfgs().minimize(energy, preconditioner, {}, nullptr, u);
   EXPECT_EQ(result.iterations, 0);
   EXPECT_EQ(u.norm(), 0);
+}
+
+TEST_F(LbfgsTest, DoesNotCallAStartWithoutFiniteEnergyConverged) {
+  move_top({std::numeric_limits<double>::quiet_NaN(), 0, 0});
+  const Preconditioner preconditioner(energy);
+  PaddedPoints u = at_rest();
+  const Lbfgs::Result result = Lbfgs().minimize(energy, preconditioner, {}, nullptr, u);
+  EXPECT_EQ(result.stop, Lbfgs::Stop::stuck);
+  EXPECT_EQ(result.not_finite, 1);
+  EXPECT_EQ(u, at_rest());
 }
 
 TEST_F(LbfgsTest, RemembersNothingOfTheSolveBefore) {
