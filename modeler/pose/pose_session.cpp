@@ -69,8 +69,9 @@ Lbfgs::Result PoseSession::drag(const MinimizeOptions& minimize) {
 Report PoseSession::release() {
   Points here = u_.leftCols<3>(), from_rest = Points::Zero(u_.rows(), 3);
   const Report polished = solver_->polish(options(), here);
-  const Report walked = solver_->solve(
+  Report walked = solver_->solve(
       options(), [](double) {}, from_rest);
+  walked.finish();
   const bool keep =
       polished.usable() && (!walked.usable() || total_energy(polished) < total_energy(walked));
   u_.leftCols<3>() = keep ? here : from_rest;

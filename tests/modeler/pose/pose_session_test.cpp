@@ -89,7 +89,7 @@ TEST(PoseSession, LedByAStiffMotionItsSurfaceIsMovedSo) {
   const HandlePath path = path_of({10, 0, 5}, 35);
   session.lead(0, path);
   session.lead(1, path);
-  session.release();
+  EXPECT_EQ(session.release().status, Status::ok);
   FloatPoints positions, normals;
   session.deform(positions, normals);
   Points expected = bar().positions;
