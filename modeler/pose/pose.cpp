@@ -19,6 +19,7 @@
 #include "modeler/pose/stiffness.h"
 #include "modeler/surface/deform_mesh.h"
 #include "modeler/surface/fill_gaps.h"
+#include "solver/core/arithmetic.h"
 #include "solver/core/check.h"
 #include "solver/core/stopwatch.h"
 
@@ -236,6 +237,7 @@ void judge_thin(double share, Report& report) {
 
 PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress,
                 const PoseFiles& files) {
+  const PlainArithmetic arithmetic;
   PoseResult result;
   Report timing;
   Stages stages(progress, timing);
