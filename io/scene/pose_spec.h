@@ -127,6 +127,7 @@ struct PoseSpec {
   bool hard_handles = false;
   int max_iterations = 2000;
   double tolerance = 1e-6;
+  std::optional<double> most_seconds;
   std::optional<int> substeps;
   SurfaceKind surface = SurfaceKind::field;
   bool fill_gaps = false;
@@ -158,6 +159,11 @@ struct PoseSpec {
           {.doc = "limit for one solve", .min = 1, .max = 1e6});
     visit("tolerance", self.tolerance,
           {.doc = "relative change of energy at which a solve stops", .min = 1e-15, .max = 0.1});
+    visit("most_seconds", self.most_seconds,
+          {.doc = "time for the handles' way; when it is over the pose is the best so far, and "
+                  "degraded; default: no limit",
+           .unit = "s",
+           .min = 0});
     visit("substeps", self.substeps,
           {.doc = "steps on the handles' way; default: as their turns and moves need",
            .min = 1,

@@ -64,7 +64,8 @@ PoseSolveOptions PoseSession::options() const {
   const PoseSpec& spec = *scene_.pose;
   return {{.kind = spec.solver, .max_iterations = spec.max_iterations, .tolerance = spec.tolerance},
           spec.substeps.value_or(substeps_needed(handles_, u_.rows())),
-          spec.hard_handles};
+          spec.hard_handles,
+          spec.most_seconds.value_or(PoseSolveOptions().most_seconds)};
 }
 
 Lbfgs::Result PoseSession::drag(const MinimizeOptions& minimize) {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "solver/core/deadline.h"
 #include "solver/energy/energy_sum.h"
 #include "solver/minimize/hard_constraints.h"
 #include "solver/minimize/minimize_options.h"
@@ -36,6 +37,7 @@ class SUPPLE_API Lbfgs {
     const EnergySum& energy;
     const Preconditioner& preconditioner;
     const HardConstraints* constraints;
+    Deadline deadline;
   };
 
   struct Pair {
