@@ -263,7 +263,7 @@ std::vector<int> shuffled(int count) {
   return order;
 }
 
-/// Between vertices of the ball's poses, over L, once `mesh`'s is scaled and moved back.
+/// Between vertices of the bar's poses, over L, once that of `mesh` is moved and scaled back.
 double difference(const PoseResult& expected, const Mesh& mesh, double scale, const Vec3& offset) {
   const PoseResult result = pose(mesh, bent("lbfgs", 200));
   const Points back = (result.mesh.positions.rowwise() - offset.transpose()) / scale;
