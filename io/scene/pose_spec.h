@@ -128,6 +128,7 @@ struct PoseSpec {
   bool no_inversion = false;
   int max_iterations = 2000;
   double tolerance = 1e-6;
+  std::optional<double> most_seconds;
   std::optional<int> substeps;
   SurfaceKind surface = SurfaceKind::field;
   bool fill_gaps = false;
@@ -164,6 +165,11 @@ struct PoseSpec {
            .min = 1e-15,
            .max = 0.1,
            .sweep = {.kind = Sweep::Kind::range, .from = 1e-2, .to = 1e-12, .exact = 1e-13}});
+    visit("most_seconds", self.most_seconds,
+          {.doc = "time for the handles' way; when it is over the pose is the best so far, and "
+                  "degraded; default: no limit",
+           .unit = "s",
+           .min = 0});
     visit("substeps", self.substeps,
           {.doc = "steps on the handles' way; default: as their turns and moves need",
            .min = 1,

@@ -14,6 +14,7 @@
 #include "modeler/cli/interrupt.h"
 #include "modeler/domain/shape_error.h"
 #include "modeler/pose/pose.h"
+#include "solver/core/arithmetic.h"
 #include "solver/core/check.h"
 
 namespace supple {
@@ -124,5 +125,6 @@ int run_and_map_errors(const std::vector<std::string>& words) {
 }  // namespace supple
 
 int main(int count, char** words) {
+  const supple::PlainArithmetic arithmetic;
   return supple::run_and_map_errors({words + std::min(count, 1), words + count});
 }

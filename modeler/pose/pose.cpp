@@ -19,6 +19,7 @@
 #include "modeler/pose/stiffness.h"
 #include "modeler/surface/deform_mesh.h"
 #include "modeler/surface/fill_gaps.h"
+#include "solver/core/arithmetic.h"
 #include "solver/core/check.h"
 #include "solver/core/stopwatch.h"
 
@@ -91,14 +92,15 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
   const PoseSolveOptions options{
       {spec.solver, spec.max_iterations, spec.tolerance},
       spec.substeps.value_or(substeps_needed(handles, solid.particles().size())),
-      spec.hard_handles};
+      spec.hard_handles,
+      spec.most_seconds.value_or(PoseSolveOptions().most_seconds)};
   const Stopwatch watch;
   Report report = solver.solve(
       options, [&](double share) { stages.advance(share); }, u);
   const double seconds = watch.seconds();
   for (const auto& [name, share] : solver.time_shares(u))
     book(result.effects, name, share * seconds);
-  report.notes.push_back(fmt::format("handles walked in {} step{}", options.substeps,
+  report.notes.push_back(fmt::format("the handles' way has {} step{}", options.substeps,
                                      options.substeps == 1 ? "" : "s"));
   if (solver.loose_particles() > 0)
     report.notes.push_back(
@@ -239,6 +241,7 @@ void judge_thin(double share, Report& report) {
 
 PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress,
                 const PoseFiles& files) {
+  const PlainArithmetic arithmetic;
   PoseResult result;
   Report timing;
   Stages stages(progress, timing);

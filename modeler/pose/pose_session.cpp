@@ -5,6 +5,7 @@
 #include "io/scene/complaint.h"
 #include "modeler/pose/stiffness.h"
 #include "solver/core/check.h"
+#include "solver/core/deadline.h"
 
 namespace supple {
 namespace {
@@ -59,7 +60,8 @@ PoseSolveOptions PoseSession::options() const {
   const PoseSpec& spec = *scene_.pose;
   return {{.kind = spec.solver, .max_iterations = spec.max_iterations, .tolerance = spec.tolerance},
           spec.substeps.value_or(substeps_needed(handles_, u_.rows())),
-          spec.hard_handles};
+          spec.hard_handles,
+          spec.most_seconds.value_or(PoseSolveOptions().most_seconds)};
 }
 
 Lbfgs::Result PoseSession::drag(const MinimizeOptions& minimize) {
@@ -68,9 +70,12 @@ Lbfgs::Result PoseSession::drag(const MinimizeOptions& minimize) {
 
 Report PoseSession::release() {
   Points here = u_.leftCols<3>(), from_rest = Points::Zero(u_.rows(), 3);
-  const Report polished = solver_->polish(options(), here);
+  PoseSolveOptions left = options();
+  const Deadline deadline(left.most_seconds);
+  const Report polished = solver_->polish(left, here);
+  left.most_seconds = deadline.left();
   Report walked = solver_->solve(
-      options(), [](double) {}, from_rest);
+      left, [](double) {}, from_rest);
   walked.finish();
   const bool keep =
       polished.usable() && (!walked.usable() || total_energy(polished) < total_energy(walked));

@@ -28,14 +28,18 @@ std::vector<bool> particles_held(const Samples& quadrature, const Samples& handl
   return pieces.reached_by(handles);
 }
 
+Reason* find_reason(Report& report, ReasonCode code) {
+  const auto found = std::find_if(report.reasons.begin(), report.reasons.end(),
+                                  [&](const Reason& reason) { return reason.code == code; });
+  return found == report.reasons.end() ? nullptr : &*found;
+}
+
 /// Adds a step's reasons and iterations to the whole way's.
 void merge(const Report& step, Report& way) {
   way.iterations += step.iterations;
   way.energies = step.energies;
   for (const Reason& reason : step.reasons) {
-    const auto known = std::find_if(way.reasons.begin(), way.reasons.end(),
-                                    [&](const Reason& r) { return r.code == reason.code; });
-    if (known != way.reasons.end())
+    if (Reason* known = find_reason(way, reason.code))
       ++known->count;
     else if (step.status == Status::failed)
       way.fail(reason);
@@ -89,7 +93,11 @@ Report PoseSolver::solve(const PoseSolveOptions& options,
     const double target = share + factor / substeps;
     const double next = target > 1 - 0.01 / substeps ? 1 : target;
     Points pose = u;
-    const Report report = step(fixed, share, next, pose);
+    Report report = step(fixed, share, next, pose);
+    if (fixed.deadline.over() && find_reason(report, ReasonCode::out_of_time)) {
+      end_early(share, report, pose, u, way);
+      break;
+    }
     const double lost = energy - total_energy(report);
     const bool sprang =
         lost > reason_limit(ReasonCode::turn_lost) * most_energy && most_energy > no_energy;
@@ -114,8 +122,22 @@ Report PoseSolver::solve(const PoseSolveOptions& options,
   return way;
 }
 
+void PoseSolver::end_early(double share, const Report& step, const Points& unfinished, Points& u,
+                           Report& way) {
+  if (count_inversions(quadrature_, unfinished).inverted <=
+      count_inversions(quadrature_, u).inverted)
+    u = unfinished;
+  merge(step, way);
+  handle_energy_.set_targets(handles_.targets(1));
+  way.energies = energy_.values(u);
+  Reason& reason = *find_reason(way, ReasonCode::out_of_time);
+  reason.value = share;
+  reason.detail = fmt::format(
+      "out of time after {:.0f} % of the handles' way, within the next step of it", 100 * share);
+}
+
 PoseSolver::Way PoseSolver::way_of(const PoseSolveOptions& options) const {
-  Way way{*preconditioner_, {}, options.minimize};
+  Way way{*preconditioner_, {}, options.minimize, Deadline(options.most_seconds)};
   if (options.hard_handles)
     way.constraints.emplace(handle_samples_, handles_.weights(), handles_.targets(1),
                             way.preconditioner);
@@ -155,9 +177,10 @@ Report PoseSolver::step(const Way& way, double from, double to, Points& u) {
 
 Report PoseSolver::minimize_at(const Way& way, const MinimizeOptions& options,
                                const Points& targets, Points& u) const {
-  if (!way.constraints) return minimize(energy_, way.preconditioner, options, u);
+  const MinimizeOptions bounded = within(way.deadline, options);
+  if (!way.constraints) return minimize(energy_, way.preconditioner, bounded, u);
   way.constraints->meet(targets, u);
-  return minimize(energy_, way.preconditioner, options, u, &*way.constraints);
+  return minimize(energy_, way.preconditioner, bounded, u, &*way.constraints);
 }
 
 /// As rigid as possible first: the pose energies are stationary on shapes collapsed to a plane, a
@@ -166,18 +189,23 @@ Report PoseSolver::minimize_at(const Way& way, const MinimizeOptions& options,
 void PoseSolver::mend(const Way& way, Points& u, Report& report) {
   const long inverted = count_inversions(quadrature_, u).inverted;
   if (inverted == 0) return;
+  if (way.deadline.over()) {
+    report.notes.push_back(
+        fmt::format("no time was left to repair {} points inside out", inverted));
+    return;
+  }
   Points mended = u;
   NearestRotationEnergy rotations(quadrature_.size());
   EnergySum nearly_rigid(particles_.rows());
   nearly_rigid.add(handle_energy_, handle_samples_, handles_.weights(), weights_.handles);
   nearly_rigid.add(rotations, quadrature_, volume_shares_, 1);
-  repair(nearly_rigid, rotations, quadrature_, mended);
+  repair(nearly_rigid, rotations, quadrature_, way.deadline, mended);
   if (weights_.volume < weights_.rigidity) {
     EnergySum balanced(particles_.rows());
     balanced.add(handle_energy_, handle_samples_, handles_.weights(), weights_.handles);
     balanced.add(rigidity_, quadrature_, volume_shares_, weights_.rigidity);
     balanced.add(volume_, quadrature_, volume_shares_, weights_.rigidity);
-    minimize(balanced, Preconditioner(balanced), way.options, mended);
+    minimize(balanced, Preconditioner(balanced), within(way.deadline, way.options), mended);
   }
   Report polished = minimize_at(way, way.options, handles_.targets(1), mended);
   if (polished.status == Status::failed) return;

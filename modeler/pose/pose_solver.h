@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "modeler/pose/handles.h"
+#include "solver/core/deadline.h"
 #include "solver/core/report.h"
 #include "solver/energy/energy_sum.h"
 #include "solver/energy/handle.h"
@@ -20,6 +22,7 @@ struct PoseSolveOptions {
   MinimizeOptions minimize;
   int substeps = 1;
   bool hard_handles = false;  ///< met exactly, as far as they can be
+  double most_seconds = std::numeric_limits<double>::infinity();  ///< for the handles' whole way
 };
 
 /// The sum of a report's energies.
@@ -44,7 +47,8 @@ class PoseSolver {
   /// before; `u` [N×3] holds the pose then. A step after which the shape sprang to another pose
   /// is taken again in halves; where that does not help the report says turn_lost. `on_step` is
   /// told the share done. Where points are turned inside out in the end, the shape is repaired and
-  /// solved again. What `u` holds is where the way starts.
+  /// solved again. What `u` holds is where the way starts. Where the time is over before, `u` holds
+  /// the best pose so far, and the report says out_of_time.
   Report solve(const PoseSolveOptions& options, const std::function<void(double share)>& on_step,
                Points& u);
 
@@ -70,11 +74,16 @@ class PoseSolver {
     const Preconditioner& preconditioner;
     std::optional<HardConstraints> constraints;
     MinimizeOptions options;
+    Deadline deadline;
   };
 
   Way way_of(const PoseSolveOptions& options) const;
   /// Brings the handles from one share of their way to the next and minimises.
   Report step(const Way& way, double from, double to, Points& u);
+  /// The time was over in the step after `share`, whose unfinished pose `u` takes, unless more
+  /// points are inside out there.
+  void end_early(double share, const Report& step, const Points& unfinished, Points& u,
+                 Report& way);
   /// Takes points that are turned inside out back, where that can be.
   void mend(const Way& way, Points& u, Report& report);
   Report minimize_at(const Way& way, const MinimizeOptions& options, const Points& targets,

@@ -4,6 +4,9 @@
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_group.h>
+
+#include "solver/core/arithmetic.h"
 
 namespace supple {
 
@@ -13,9 +16,13 @@ void parallel_chunks(Index count, Index chunk, const std::function<void(Index, I
     if (count > 0) body(0, count);
     return;
   }
+  // With the caller's rounding, whatever the threads had.
+  tbb::task_group_context context(
+      tbb::task_group_context::bound,
+      tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
   tbb::parallel_for(
       Index{0}, chunks, [&](Index c) { body(c * chunk, std::min(count, (c + 1) * chunk)); },
-      tbb::simple_partitioner());
+      tbb::simple_partitioner(), context);
 }
 
 ThreadLimit::ThreadLimit(int threads) {

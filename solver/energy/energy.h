@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string_view>
 
 #include "solver/core/export.h"
@@ -56,5 +57,10 @@ class SUPPLE_API Energy {
   /// of times. The same as by evaluate(); energies override it where there is a shorter way.
   virtual double add_square(const LocalField& at, double weight, LocalDerivative& derivative) const;
 };
+
+/// +∞ is what a barrier answers outside of its domain; whatever else is not finite is trouble.
+inline bool beyond_a_barrier(double energy) {
+  return energy == std::numeric_limits<double>::infinity();
+}
 
 }  // namespace supple

@@ -16,10 +16,12 @@ namespace {
 /// One term at one sample: parameter blocks are the displacements in the sample's row.
 class SampleCost final : public ceres::CostFunction {
  public:
-  SampleCost(const EnergyGroup& group, const EnergyGroup::Term& term, Index sample)
+  /// Counts in `not_finite` where its residual is not.
+  SampleCost(const EnergyGroup& group, const EnergyGroup::Term& term, Index sample, int& not_finite)
       : samples_(*group.samples),
         energy_(*term.energy),
         sample_(sample),
+        not_finite_(not_finite),
         // Ceres halves the squares.
         factor_(std::sqrt(2 * term.weight * group.sample_weights[sample])) {
     set_num_residuals(energy_.rows());
@@ -34,6 +36,10 @@ class SampleCost final : public ceres::CostFunction {
     if (completion) at.F = completion->F();
     energy_.evaluate(at, local);
     for (int row = 0; row < energy_.rows(); ++row) residuals[row] = factor_ * local.r[row];
+    if (!local.r.head(energy_.rows()).allFinite()) {
+      not_finite_ += !beyond_a_barrier(local.r.head(energy_.rows()).sum());
+      return false;  // ends this evaluation
+    }
     if (!jacobians) return true;
     if (completion && energy_.argument() == Energy::Argument::gradient)
       derive_by_carried(*completion, local);
@@ -85,10 +91,11 @@ class SampleCost final : public ceres::CostFunction {
   const Samples& samples_;
   const Energy& energy_;
   Index sample_;
+  int& not_finite_;
   double factor_;
 };
 
-void add_residuals(const EnergyGroup& group, Points& u, ceres::Problem& problem) {
+void add_residuals(const EnergyGroup& group, Points& u, int& not_finite, ceres::Problem& problem) {
   const Samples& samples = *group.samples;
   for (Index k = 0; k < samples.size(); ++k) {
     if (!(group.sample_weights[k] > 0)) continue;
@@ -96,15 +103,17 @@ void add_residuals(const EnergyGroup& group, Points& u, ceres::Problem& problem)
     for (int at = samples.row_begin(k); at < samples.row_end(k); ++at)
       blocks.push_back(u.row(samples.particles[static_cast<std::size_t>(at)]).data());
     for (const EnergyGroup::Term& term : group.terms)
-      problem.AddResidualBlock(new SampleCost(group, term, k), nullptr, blocks);
+      problem.AddResidualBlock(new SampleCost(group, term, k, not_finite), nullptr, blocks);
   }
 }
 
 }  // namespace
 
 Report minimize_trust_region(const EnergySum& energy, const MinimizeOptions& options, Points& u) {
+  const Deadline deadline(options.most_seconds);
+  int not_finite = 0;  // by one thread, the default
   ceres::Problem problem;
-  for (const EnergyGroup& group : energy.groups()) add_residuals(group, u, problem);
+  for (const EnergyGroup& group : energy.groups()) add_residuals(group, u, not_finite, problem);
 
   ceres::Solver::Options ceres_options;
   ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
@@ -112,13 +121,20 @@ Report minimize_trust_region(const EnergySum& energy, const MinimizeOptions& opt
   ceres_options.function_tolerance = options.tolerance;
   ceres_options.gradient_tolerance = 1e-14;
   ceres_options.parameter_tolerance = 0;
+  ceres_options.max_solver_time_in_seconds =
+      std::min(ceres_options.max_solver_time_in_seconds, deadline.left());
   ceres_options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(ceres_options, &problem, &summary);
 
+  const int evaluations = summary.num_residual_evaluations + summary.num_jacobian_evaluations;
   Report report;
   report.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
-  if (summary.termination_type == ceres::NO_CONVERGENCE)
+  degrade_not_finite(not_finite, evaluations, report);
+  if (summary.termination_type == ceres::NO_CONVERGENCE &&
+      report.iterations < options.max_iterations)
+    degrade_out_of_time("iterations", report);
+  else if (summary.termination_type == ceres::NO_CONVERGENCE)
     report.degrade({ReasonCode::max_iterations, 1, static_cast<double>(report.iterations),
                     fmt::format("stopped after {} iterations", report.iterations)});
   if (!summary.IsSolutionUsable())

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/core/stopwatch.h"
-
 namespace supple {
 namespace {
 
@@ -45,8 +43,7 @@ double between(const Place& a, const Place& b) {
 Lbfgs::Result Lbfgs::minimize(const EnergySum& energy, const Preconditioner& preconditioner,
                               const MinimizeOptions& options, const HardConstraints* constraints,
                               PaddedPoints& u) {
-  const Problem problem{energy, preconditioner, constraints};
-  const Stopwatch watch;
+  const Problem problem{energy, preconditioner, constraints, Deadline(options.most_seconds)};
   Result result;
   forget();
   result.energy = evaluate(problem, u, result);
@@ -59,18 +56,20 @@ Lbfgs::Result Lbfgs::minimize(const EnergySum& energy, const Preconditioner& pre
   // A minimum of zero, as of a rigid motion, is come closer to for ever.
   const double nothing = options.tolerance * options.tolerance * result.energy;
   while (result.iterations < options.max_iterations) {
-    if (watch.seconds() > options.most_seconds) {
-      result.stop = Stop::out_of_time;
-      return result;
-    }
     choose_direction(problem);
     const double gain = -dot(direction_, by_y_);
     if (!(gain > no_gain * result.energy)) return result;
+    if (problem.deadline.over()) {
+      result.stop = Stop::out_of_time;
+      return result;
+    }
     const double before = result.energy;
     if (walk(problem, u, result)) {
       ++result.iterations;
       if (before - result.energy <= options.tolerance * before || result.energy <= nothing)
         return result;
+    } else if (problem.deadline.over()) {
+      continue;  // told above
     } else if (kept_ > 0) {
       ++result.restarts;
       forget();
@@ -103,11 +102,11 @@ bool Lbfgs::walk(const Problem& problem, PaddedPoints& u, Result& result) {
   const Place start{0, result.energy, dot(direction_, by_y_)};
   Place low = start, high{std::numeric_limits<double>::infinity(), 0, 0};
   double t = 1;
-  for (int trial = 0; trial < most_trials; ++trial) {
+  for (int trial = 0; trial < most_trials && !problem.deadline.over(); ++trial) {
     trial_ = u + t * step_;
     const Place here{t, evaluate(problem, trial_, result), dot(by_u_, step_)};
     if (!std::isfinite(here.value) || !std::isfinite(here.slope)) {
-      ++result.not_finite;
+      result.not_finite += !beyond_a_barrier(here.value);
       high = {t, std::numeric_limits<double>::quiet_NaN(), 0};
     } else if (here.value > start.value + decrease * t * start.slope) {
       high = here;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "solver/core/deadline.h"
 #include "solver/energy/energy_sum.h"
 #include "solver/minimize/hard_constraints.h"
 #include "solver/minimize/minimize_options.h"
@@ -20,8 +21,9 @@ class SUPPLE_API Lbfgs {
     Stop stop = Stop::converged;
     double energy = 0;
     int iterations = 0, evaluations = 0;
-    int not_finite = 0;  ///< evaluations that were not finite; their steps were shortened
-    int restarts = 0;    ///< times the memory of earlier steps led nowhere and was given up
+    int not_finite =
+        0;             ///< evaluations without a number, barriers apart; their steps were shortened
+    int restarts = 0;  ///< times the memory of earlier steps led nowhere and was given up
   };
 
   /// Minimises over `u` [m] N×4, starting from what it holds, where the energy is finite. The
@@ -36,6 +38,7 @@ class SUPPLE_API Lbfgs {
     const EnergySum& energy;
     const Preconditioner& preconditioner;
     const HardConstraints* constraints;
+    Deadline deadline;
   };
 
   struct Pair {

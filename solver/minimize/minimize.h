@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "solver/core/report.h"
 #include "solver/energy/energy_sum.h"
 #include "solver/minimize/hard_constraints.h"
@@ -18,6 +20,9 @@ SUPPLE_API Report minimize(const EnergySum& energy, const Preconditioner& precon
                            const MinimizeOptions& options, Points& u,
                            const HardConstraints* constraints = nullptr);
 
+/// The options with no more time than is left.
+SUPPLE_API MinimizeOptions within(const Deadline& deadline, MinimizeOptions options);
+
 /// The other methods of minimize(): Ceres' Levenberg–Marquardt with analytic Jacobians, a residual
 /// block a sample, sparse normal Cholesky; NLopt's SLSQP, for a hundred particles or so.
 Report minimize_nlopt(const EnergySum& energy, const Preconditioner& preconditioner,
@@ -28,7 +33,10 @@ Report minimize_trust_region(const EnergySum& energy, const MinimizeOptions& opt
 /// What an L-BFGS solve came to, in words.
 SUPPLE_API Report report_of(const Lbfgs::Result& result);
 
-/// Notes how often a minimiser met an energy that was not finite.
-void note_not_finite(int count, int evaluations, Report& report);
+/// Degrades for the time, which was over after the report's iterations, counted in `steps`.
+void degrade_out_of_time(std::string_view steps, Report& report);
+
+/// Degrades where a minimiser met an energy that was not finite, and says how often.
+void degrade_not_finite(int count, int evaluations, Report& report);
 
 }  // namespace supple

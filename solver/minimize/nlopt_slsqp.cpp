@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -9,9 +10,13 @@
 namespace supple {
 namespace {
 
-/// What NLopt is shown where the energy is not finite: its algorithms may hang on NaN, or throw.
+/// What NLopt is shown where the energy is not finite, and how often before it is stopped: its
+/// algorithms may hang on NaN, or throw.
 constexpr double no_finite_energy = 1e100;
-constexpr int most_not_finite = 50;
+constexpr int most_rejected = 50;
+
+/// NLopt takes 0 for no limit [s].
+constexpr double least_seconds = 1e-9;
 
 constexpr double constraint_tolerance = 1e-12;
 
@@ -49,7 +54,8 @@ class Problem {
     Points by_u;
     const double energy = self.energy_.evaluate(self.displacements(y), gradient ? &by_u : nullptr);
     const bool finite = std::isfinite(energy) && (!gradient || by_u.allFinite());
-    if (!finite && ++self.not_finite_ > most_not_finite) nlopt_force_stop(self.solver_);
+    if (!finite && ++self.rejected_ > most_rejected) nlopt_force_stop(self.solver_);
+    if (!finite && !beyond_a_barrier(energy)) ++self.not_finite_;
     if (gradient) {
       if (finite)
         self.preconditioner_.to_gradient(by_u);
@@ -80,20 +86,19 @@ class Problem {
   const HardConstraints* constraints_;
   const Points& start_;
   nlopt_opt solver_;
-  int evaluations_ = 0, not_finite_ = 0;
+  int evaluations_ = 0, rejected_ = 0, not_finite_ = 0;
 };
 
 Report report_of(nlopt_result result, const Problem& problem) {
   Report report;
   report.iterations = problem.evaluations();
-  note_not_finite(problem.not_finite(), problem.evaluations(), report);
+  degrade_not_finite(problem.not_finite(), problem.evaluations(), report);
   if (result == NLOPT_MAXEVAL_REACHED)
     report.degrade({ReasonCode::max_iterations, 1, static_cast<double>(report.iterations),
                     fmt::format("stopped after {} evaluations", report.iterations)});
-  else if (result == NLOPT_FORCED_STOP)
-    report.degrade({ReasonCode::not_finite, problem.not_finite(), 0,
-                    "the energy is not finite about the minimum"});
-  else if (result < 0 && result != NLOPT_ROUNDOFF_LIMITED)
+  else if (result == NLOPT_MAXTIME_REACHED)
+    degrade_out_of_time("evaluations", report);
+  else if (result < 0 && result != NLOPT_ROUNDOFF_LIMITED && result != NLOPT_FORCED_STOP)
     report.degrade({ReasonCode::not_converged, 1, 0, nlopt_result_to_string(result)});
   return report;
 }
@@ -109,6 +114,7 @@ Report minimize_nlopt(const EnergySum& energy, const Preconditioner& preconditio
   Problem problem(energy, preconditioner, constraints, start, solver.get());
   nlopt_set_ftol_rel(solver.get(), options.tolerance);
   nlopt_set_maxeval(solver.get(), options.max_iterations);
+  nlopt_set_maxtime(solver.get(), std::max(options.most_seconds, least_seconds));
   Eigen::VectorXd y = Eigen::VectorXd::Zero(start.size());
   double value = 0;
   const nlopt_result result = nlopt_optimize(solver.get(), y.data(), &value);

@@ -171,6 +171,53 @@ constexpr Limit table[] = {
     {"K11", "left_behind", equal, 0, "files that were not there before"},
     {"K11", "found_by_check_writable", equal, 1, "share of these paths"},
     {"K11", "control_exit_code", equal, 143, "a good path: still solving when stopped after 1 s"},
+    // L1, L2, L5, L6: lbfgs, trust_region and nlopt, each in turn; "told": by the report.
+    {"L1", "start_failed", equal, 3, "solves that start at NaN: failed for it, u as it was"},
+    {"L1", "later_told", equal, 3, "solves that meet NaN on their way: degraded for it, not ok"},
+    {"L1", "later_lower", equal, 3, "of these: energy below the start's, all numbers finite"},
+    {"L2", "residuals_not_finite", equal, 0, "r, Jacobian, square of 4 energies at f = x, 5 F's to 0"},
+    {"L2", "solves_not_finite", equal, 0, "or not usable, from all particles in one place, the target"},
+    // L3 asks for each NLopt algorithm; SLSQP alone is used here.
+    {"L3", "evaluations", at_most, 200, "NaN all about the start, and about the minimum; of 1e6 allowed"},
+    {"L3", "out_of_time", equal, 0, "of these two within 60 s"},
+    {"L3", "told", equal, 2, "degraded for NaN"},
+    {"L3", "rose", equal, 0, "energies above the start's, or not finite"},
+    // L4: all is ours but Ceres, which runs in one thread and so must be equal too.
+    {"L4", "threads_at_work", at_least, 3, "seen, of 8 asked for: the control"},
+    {"L4", "samples_differ", equal, 0, "in a bit: φ, ∇φ; of 1, 2, 3, 4, 8 threads three times"},
+    {"L4", "poses_differ", equal, 0, "the same, of whole poses: vertices, u, det F, energies"},
+    {"L4", "trust_region_differs", equal, 0, "the same, solved by Ceres"},
+    // L5 counts evaluations rather than time beyond the budget: no slow machine fails it.
+    {"L5", "evaluations_without_time", at_most, 4, "budget 0: to check, to start, to tell the energies"},
+    {"L5", "evaluations_begun_late", at_most, 4, "1 ms, 1 s; as above, and an iteration of Ceres takes two"},
+    {"L5", "solves_told", equal, 9, "of 3 budgets: degraded, out_of_time"},
+    {"L5", "rose", equal, 0, "energies above the start's, or not finite"},
+    {"L5", "poses_told", equal, 6, "the same budgets for a pose of 10,000 steps, handles soft and hard"},
+    {"L5", "poses_bad", equal, 0, "of these: not finite, or inside out"},
+    {"L5", "share_of_the_way", at_most, 0.9, "the greatest that was walked: the time ended it"},
+    // L6: L-BFGS forgets its memory, goes down the preconditioned gradient, then the trust region.
+    {"L6", "singular_left", at_most, 1e-10, "of the energy; one sample alone feels anything"},
+    {"L6", "indefinite_left", at_most, 1e-10, "of (|f|² − 1)², from f near 0"},
+    {"L6", "memory_given_up_told", equal, 1, "at kinks |x|, which no line search passes"},
+    {"L6", "trust_region_told", equal, 1, "there"},
+    {"L6", "kinks_left", at_most, 0.1, "of the energy there"},
+    {"L6", "invalid_steps_told", equal, 1, "every step NaN: the trust region takes over; degraded: not_finite"},
+    {"L6", "invalid_steps_moved", at_most, 1e-12, "|u| there, from 0"},
+    {"L7", "environments_felt", equal, 4, "rounding up, down, to 0; denormals flushed: the control"},
+    {"L7", "poses_differ", equal, 0, "in a bit from the usual one, under each of them"},
+    {"L7", "environments_kept", equal, 4, "as the caller had them"},
+    {"L7", "denormal_shape_refused", equal, 1, "coordinates of 1e-310"},
+    {"L7", "fast_math_compiles", equal, 0, "solver/core with -ffast-math"},
+    {"L7", "without_it_compiles", equal, 1, "the control"},
+    // L8: sampling goes by axes and starts at the mesh, so that order and turns of particles are
+    // compared from the field on; a scene has one file, split here into triangles of their own.
+    {"L8", "moved", at_least, 0.1, "max |u|/L of the bar that is compared: the control"},
+    {"L8", "particles_permuted", at_most, 1e-9, "max difference of u over L, mapped back"},
+    {"L8", "field_rotated", at_most, 1e-9, "the same"},
+    {"L8", "translated", at_most, 1e-9, "max difference of a pose's vertices over L, mapped back"},
+    {"L8", "scaled_to_3e_7", at_most, 1e-9, "the same"},
+    {"L8", "scaled_to_7e5", at_most, 1e-9, "the same"},
+    {"L8", "split_into_triangles", at_most, 1e-9, "the same"},
 };
 // clang-format on
 

@@ -103,6 +103,7 @@ TEST(SceneReader, ReadsEveryKey) {
       "  weights: {volume: 0}\n"
       "  solver: trust_region\n"
       "  max_iterations: 7\n"
+      "  most_seconds: 2.5\n"
       "  tolerance: 1.0e-8\n"
       "  substeps: 3\n"
       "  surface: particle_gradients\n");
@@ -126,6 +127,7 @@ TEST(SceneReader, ReadsEveryKey) {
   EXPECT_EQ(scene.pose->weights.handles, 1e4);
   EXPECT_EQ(scene.pose->solver, MinimizerKind::trust_region);
   EXPECT_EQ(scene.pose->max_iterations, 7);
+  EXPECT_EQ(scene.pose->most_seconds, 2.5);
   EXPECT_EQ(scene.pose->tolerance, 1e-8);
   EXPECT_EQ(scene.pose->substeps, 3);
   EXPECT_EQ(scene.pose->surface, SurfaceKind::particle_gradients);
