@@ -97,6 +97,7 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
   const double seconds = watch.seconds();
   for (const auto& [name, share] : solver.time_shares(u))
     book(result.effects, name, share * seconds);
+  judge_turns(handles, options.substeps, report);
   report.notes.push_back(fmt::format("handles walked in {} step{}", options.substeps,
                                      options.substeps == 1 ? "" : "s"));
   if (solver.loose_particles() > 0)
@@ -281,6 +282,7 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress,
   measure_handles(posed, handles, result);
   const InversionCount inversion = worst_inversion(solid, *field, u, surface);
   result.min_det_F = inversion.min_det_F;
+  result.min_det_F_place = solid.origin() + solid.unit() * inversion.worst;
   result.report.seconds = timing.seconds;
   result.report.notes.insert(result.report.notes.end(), solid.notes().begin(), solid.notes().end());
   judge_thin(thin_share, result.report);

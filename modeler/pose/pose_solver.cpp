@@ -107,7 +107,17 @@ Report PoseSolver::solve(const PoseSolveOptions& options,
     on_step(share);
   }
   if (way.status != Status::failed) mend(fixed, u, way);
+  judge_reach(way);
   return way;
+}
+
+void PoseSolver::judge_reach(Report& report) const {
+  const long outside = handle_samples_.uncovered;
+  if (outside > 0)
+    report.degrade({ReasonCode::uncovered, outside, static_cast<double>(outside),
+                    fmt::format("{} of {} points of handles lie outside all supports: each leads "
+                                "the particle nearest to it",
+                                outside, handle_samples_.size())});
 }
 
 PoseSolver::Way PoseSolver::way_of(const PoseSolveOptions& options) const {

@@ -73,6 +73,9 @@ class PoseSolver {
   Report minimize_at(const Way& way, const MinimizeOptions& options, const Points& targets,
                      Points& u) const;
 
+  /// Says which points of handles no particle reaches.
+  void judge_reach(Report& report) const;
+
   /// Moves what hangs together with handles along with them as one body, where that is nearer to
   /// the new minimum.
   void predict(const Points& targets_before, const Points& targets, Points& u) const;
