@@ -10,6 +10,7 @@
 #include "modeler/plan/plan.h"
 #include "modeler/pose/handles.h"
 #include "modeler/pose/mirrored_handle.h"
+#include "modeler/pose/no_inversion.h"
 #include "modeler/pose/pose_measures.h"
 #include "modeler/pose/pose_solver.h"
 #include "modeler/pose/posed_field.h"
@@ -88,18 +89,20 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
              PoseResult& result, Points& u) {
   PoseSolver solver(field.mls, field.quadrature, field.points.volumes, handles, spec.weights,
                     stiffness);
-  if (spec.no_inversion) solver.forbid_inversion();
   const PoseSolveOptions options{
       {spec.solver, spec.max_iterations, spec.tolerance},
       spec.substeps.value_or(substeps_needed(handles, solid.particles().size())),
       spec.hard_handles,
       spec.most_seconds.value_or(PoseSolveOptions().most_seconds)};
   const Stopwatch watch;
-  Report report = solver.solve(
-      options, [&](double share) { stages.advance(share); }, u);
+  const auto on_step = [&](double share) { stages.advance(share); };
+  Report report = spec.no_inversion
+                      ? solve_without_inversion(solid, field, options, on_step, solver, u)
+                      : solver.solve(options, on_step, u);
   const double seconds = watch.seconds();
   for (const auto& [name, share] : solver.time_shares(u))
     book(result.effects, name, share * seconds);
+  judge_turns(handles, options.substeps, report);
   report.notes.push_back(fmt::format("the handles' way has {} step{}", options.substeps,
                                      options.substeps == 1 ? "" : "s"));
   if (solver.loose_particles() > 0)
@@ -287,6 +290,7 @@ PoseResult pose(const Mesh& mesh, const Scene& scene, const Progress& progress,
   measure_handles(posed, handles, result);
   const InversionCount inversion = worst_inversion(solid, *field, u, surface);
   result.min_det_F = inversion.min_det_F;
+  result.min_det_F_place = solid.origin() + solid.unit() * inversion.worst;
   result.report.seconds = timing.seconds;
   result.report.notes.insert(result.report.notes.end(), solid.notes().begin(), solid.notes().end());
   judge_thin(thin_share, result.report);

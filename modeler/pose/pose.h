@@ -32,7 +32,8 @@ struct PoseResult {
   std::vector<HandleResidual> handles;
   double handle_max_error = 0, handle_rms_error = 0;  ///< over the diagonal
   double volume_before = 0, volume_after = 0;         ///< of the region [m³]
-  double min_det_F = 1;  ///< over particles, quadrature points and surface vertices
+  double min_det_F = 1;                 ///< over particles, quadrature points and surface vertices
+  Vec3 min_det_F_place = Vec3::Zero();  ///< where that is, at rest [m]
   std::vector<Effect> effects;
   Report report;
 };

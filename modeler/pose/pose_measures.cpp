@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "io/scene/complaint.h"
+
 namespace supple {
 namespace {
 
@@ -63,7 +65,10 @@ InversionCount worst_inversion(const Solid& solid, const SolidField& field, cons
   for (std::size_t i = 0; i < surface.gradients.size(); ++i) {
     if (!solid.used_vertices()[i]) continue;
     const double J = surface.gradients[i].determinant();
-    worst.min_det_F = std::min(worst.min_det_F, J);
+    if (J < worst.min_det_F) {
+      worst.min_det_F = J;
+      worst.worst = solid.inner_vertices().row(static_cast<Index>(i)).transpose();
+    }
     if (!(J > 0)) ++worst.inverted;
   }
   return worst;
@@ -110,7 +115,32 @@ void judge_cover(const Solid& solid, const SolidField& field, Report& report) {
 /// Beyond this a change of volume is worth a word: the volume weight is a preference.
 constexpr double notable_volume_change = 0.05;
 
+/// From here on a turn that places alone tell may as well be meant the other way round.
+constexpr double notable_turn = EIGEN_PI / 2;
+
+constexpr double rounding = 1e-9;
+
 }  // namespace
+
+void judge_turns(const HandleSamples& handles, int substeps, Report& report) {
+  double most = 0;
+  for (const PoseHandle& handle : handles.handles()) {
+    const double turn = std::abs(handle.path.radians), degrees = turn * 180 / EIGEN_PI;
+    if (handle.spec->to && turn > notable_turn)
+      report.notes.push_back(fmt::format(
+          "{} turns by {:.0f}°, the shorter way to its places, which tell no whole turns: a longer "
+          "way needs turn instead of to",
+          in_quotes(handle.spec->part()), degrees));
+    else
+      most = std::max(most, turn);
+  }
+  if (most > (1 + rounding) * EIGEN_PI * substeps)
+    report.degrade({ReasonCode::turn_lost, 1, 1,
+                    fmt::format("a handle turns by {:.0f}° in {} step{}: more than half a turn in "
+                                "a step is lost; allowed: {} substeps at least",
+                                most * 180 / EIGEN_PI, substeps, substeps == 1 ? "" : "s",
+                                std::ceil((1 - rounding) * most / EIGEN_PI))});
+}
 
 void judge_start(const StartingPose& from, Report& report) {
   const double percent = 100 * from.miss;
@@ -127,14 +157,18 @@ void judge(const Solid& solid, const SolidField& field, const PoseSpec& spec,
            const InversionCount& inversion, PoseResult& result) {
   Report& report = result.report;
   for (const Reason& reason : solid.reasons()) report.degrade(reason);
-  if (inversion.inverted > 0 && spec.no_inversion)
-    report.fail({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
-                 fmt::format("{} points are turned inside out, which no_inversion forbids",
-                             inversion.inverted)});
-  else if (inversion.inverted > 0)
-    report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
-                    fmt::format("{} points are turned inside out, the worst with det F = {:.3g}",
-                                inversion.inverted, inversion.min_det_F)});
+  if (inversion.inverted > 0) {
+    const Vec3& at = result.min_det_F_place;
+    const std::string what = fmt::format(
+        "{} points are turned inside out, the worst with det F = {:.3g} at ({:.6g}, "
+        "{:.6g}, {:.6g}) of the rest shape",
+        inversion.inverted, inversion.min_det_F, at[0], at[1], at[2]);
+    if (spec.no_inversion)
+      report.fail({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
+                   what + ", which no_inversion forbids"});
+    else
+      report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F, what});
+  }
   judge_handles(spec, result);
   judge_cover(solid, field, report);
   const double change = result.volume_after / result.volume_before - 1;

@@ -21,6 +21,10 @@ void measure_volume(const Solid& solid, const PosedField& posed, const DeformedS
 InversionCount worst_inversion(const Solid& solid, const SolidField& field, const Points& u,
                                const DeformedSurface& surface);
 
+/// Whether the handles' turns are those that the user means: places alone tell a turn only up to
+/// whole turns, and steps of more than half a turn turn the other way, or not at all.
+void judge_turns(const HandleSamples& handles, int substeps, Report& report);
+
 /// How well the pose to start from is met.
 void judge_start(const StartingPose& from, Report& report);
 

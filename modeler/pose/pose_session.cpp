@@ -78,7 +78,7 @@ Report PoseSession::release() {
       left, [](double) {}, from_rest);
   walked.finish();
   const bool keep =
-      polished.usable() && (!walked.usable() || total_energy(polished) < total_energy(walked));
+      polished.usable() && (!walked.usable() || polished.total_energy() < walked.total_energy());
   u_.leftCols<3>() = keep ? here : from_rest;
   return keep ? polished : walked;
 }

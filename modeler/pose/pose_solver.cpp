@@ -18,6 +18,11 @@ constexpr double tolerance_on_the_way = 1e-4;
 /// A step is halved this often at most.
 constexpr double smallest_step = 1.0 / 8;
 
+/// From this ratio of volume to rigidity on L-BFGS, whose preconditioner knows no volume term,
+/// takes so many iterations that its steps on the way end early; the trust region is sure, if
+/// slower.
+constexpr double heavy_volume = 1e4;
+
 /// Energies below this are rounding.
 constexpr double no_energy = 1e-9;
 
@@ -28,18 +33,12 @@ std::vector<bool> particles_held(const Samples& quadrature, const Samples& handl
   return pieces.reached_by(handles);
 }
 
-Reason* find_reason(Report& report, ReasonCode code) {
-  const auto found = std::find_if(report.reasons.begin(), report.reasons.end(),
-                                  [&](const Reason& reason) { return reason.code == code; });
-  return found == report.reasons.end() ? nullptr : &*found;
-}
-
 /// Adds a step's reasons and iterations to the whole way's.
 void merge(const Report& step, Report& way) {
   way.iterations += step.iterations;
   way.energies = step.energies;
   for (const Reason& reason : step.reasons) {
-    if (Reason* known = find_reason(way, reason.code))
+    if (Reason* known = way.find(reason.code))
       ++known->count;
     else if (step.status == Status::failed)
       way.fail(reason);
@@ -52,12 +51,6 @@ void merge(const Report& step, Report& way) {
 }
 
 }  // namespace
-
-double total_energy(const Report& report) {
-  double sum = 0;
-  for (const auto& [name, value] : report.energies) sum += value;
-  return sum;
-}
 
 PoseSolver::PoseSolver(const MovingLeastSquares<3>& field, const Samples& quadrature,
                        const Eigen::VectorXd& volumes, const HandleSamples& handles,
@@ -82,11 +75,20 @@ void PoseSolver::forbid_inversion() {
   energy_.add(barrier_, quadrature_, volume_shares_, weights_.rigidity);
 }
 
+void PoseSolver::forbid_inversion_at(const MovingLeastSquares<3>& field, const Points& points) {
+  const Samples& samples = barrier_samples_.emplace_back(
+      sample_field(field, points, SampleContent::values_and_gradients));
+  energy_.add(barrier_, samples, Eigen::VectorXd::Constant(samples.size(), volume_shares_.mean()),
+              weights_.rigidity);
+}
+
 Report PoseSolver::solve(const PoseSolveOptions& options,
                          const std::function<void(double)>& on_step, Points& u) {
   const Way fixed = way_of(options);
   const int substeps = options.substeps;
   Report way;
+  if (fixed.options.kind != options.minimize.kind)
+    way.notes.push_back("weights.volume is far above weights.rigidity: solved by the trust region");
   double share = 0, factor = 1, energy = 0, most_energy = 0;
   while (share < 1 && way.status != Status::failed) {
     // The last step ends at 1 exactly.
@@ -94,11 +96,11 @@ Report PoseSolver::solve(const PoseSolveOptions& options,
     const double next = target > 1 - 0.01 / substeps ? 1 : target;
     Points pose = u;
     Report report = step(fixed, share, next, pose);
-    if (fixed.deadline.over() && find_reason(report, ReasonCode::out_of_time)) {
+    if (fixed.deadline.over() && report.find(ReasonCode::out_of_time)) {
       end_early(share, report, pose, u, way);
       break;
     }
-    const double lost = energy - total_energy(report);
+    const double lost = energy - report.total_energy();
     const bool sprang =
         lost > reason_limit(ReasonCode::turn_lost) * most_energy && most_energy > no_energy;
     if (sprang && factor > smallest_step) {
@@ -114,11 +116,12 @@ Report PoseSolver::solve(const PoseSolveOptions& options,
     u = pose;
     share = next;
     factor = std::min(1.0, 2 * factor);
-    energy = total_energy(report);
+    energy = report.total_energy();
     most_energy = std::max(most_energy, energy);
     on_step(share);
   }
   if (way.status != Status::failed) mend(fixed, u, way);
+  judge_reach(way);
   return way;
 }
 
@@ -130,14 +133,26 @@ void PoseSolver::end_early(double share, const Report& step, const Points& unfin
   merge(step, way);
   handle_energy_.set_targets(handles_.targets(1));
   way.energies = energy_.values(u);
-  Reason& reason = *find_reason(way, ReasonCode::out_of_time);
+  Reason& reason = *way.find(ReasonCode::out_of_time);
   reason.value = share;
   reason.detail = fmt::format(
       "out of time after {:.0f} % of the handles' way, within the next step of it", 100 * share);
 }
 
+void PoseSolver::judge_reach(Report& report) const {
+  const long outside = handle_samples_.uncovered;
+  if (outside > 0)
+    report.degrade({ReasonCode::uncovered, outside, static_cast<double>(outside),
+                    fmt::format("{} of {} points of handles lie outside all supports: each leads "
+                                "the particle nearest to it",
+                                outside, handle_samples_.size())});
+}
+
 PoseSolver::Way PoseSolver::way_of(const PoseSolveOptions& options) const {
   Way way{*preconditioner_, {}, options.minimize, Deadline(options.most_seconds)};
+  const bool heavy = weights_.volume >= heavy_volume * weights_.rigidity;
+  if (heavy && way.options.kind == MinimizerKind::lbfgs && !options.hard_handles)
+    way.options.kind = MinimizerKind::trust_region;
   if (options.hard_handles)
     way.constraints.emplace(handle_samples_, handles_.weights(), handles_.targets(1),
                             way.preconditioner);
@@ -148,7 +163,7 @@ Report PoseSolver::polish(const PoseSolveOptions& options, Points& u) {
   const Way way = way_of(options);
   const Points targets = handles_.targets(1);
   handle_energy_.set_targets(targets);
-  Report report = minimize_at(way, options.minimize, targets, u);
+  Report report = minimize_at(way, way.options, targets, u);
   if (report.usable()) mend(way, u, report);
   return report;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -25,9 +26,6 @@ struct PoseSolveOptions {
   double most_seconds = std::numeric_limits<double>::infinity();  ///< for the handles' whole way
 };
 
-/// The sum of a report's energies.
-double total_energy(const Report& report);
-
 /// The pose energy of one shape, E = λ1 E_handles + λ2 E_rigidity + λ3 E_volume
 /// (Adams & Wicke 2009, Eq. 78), and the way to its minimum.
 class PoseSolver {
@@ -39,6 +37,8 @@ class PoseSolver {
              const PoseWeights& weights, const Eigen::VectorXd& stiffness = {});
   /// From now on no point where energies are summed may turn inside out.
   void forbid_inversion();
+  /// Nor may these points of the rest shape [m], n×3.
+  void forbid_inversion_at(const MovingLeastSquares<3>& field, const Points& points);
 
   PoseSolver(const PoseSolver&) = delete;
   PoseSolver& operator=(const PoseSolver&) = delete;
@@ -89,6 +89,9 @@ class PoseSolver {
   Report minimize_at(const Way& way, const MinimizeOptions& options, const Points& targets,
                      Points& u) const;
 
+  /// Says which points of handles no particle reaches.
+  void judge_reach(Report& report) const;
+
   /// Moves what hangs together with handles along with them as one body, where that is nearer to
   /// the new minimum.
   void predict(const Points& targets_before, const Points& targets, Points& u) const;
@@ -103,6 +106,7 @@ class PoseSolver {
   RigidityEnergy rigidity_;
   VolumeEnergy volume_;
   InversionBarrier barrier_;
+  std::deque<Samples> barrier_samples_;  ///< beside the quadrature's
   EnergySum energy_;
   std::optional<Preconditioner> preconditioner_;
   std::vector<bool> held_;  ///< particles that hang together with a handle

@@ -1,6 +1,8 @@
 #include "solver/core/report.h"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "solver/core/check.h"
 
@@ -70,6 +72,22 @@ void Report::degrade(Reason reason) {
 void Report::fail(Reason reason) {
   status = Status::failed;
   reasons.push_back(std::move(reason));
+}
+
+double Report::total_energy() const {
+  double sum = 0;
+  for (const auto& [name, value] : energies) sum += value;
+  return sum;
+}
+
+const Reason* Report::find(ReasonCode code) const {
+  const auto found = std::find_if(reasons.begin(), reasons.end(),
+                                  [&](const Reason& reason) { return reason.code == code; });
+  return found == reasons.end() ? nullptr : &*found;
+}
+
+Reason* Report::find(ReasonCode code) {
+  return const_cast<Reason*>(std::as_const(*this).find(code));
 }
 
 }  // namespace supple

@@ -60,6 +60,11 @@ struct SUPPLE_API Report {
   void degrade(Reason reason);
   void fail(Reason reason);
   bool usable() const { return status == Status::ok || status == Status::degraded; }
+
+  double total_energy() const;
+  /// The reason with that code; null where there is none.
+  const Reason* find(ReasonCode code) const;
+  Reason* find(ReasonCode code);
 };
 
 }  // namespace supple

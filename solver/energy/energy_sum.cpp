@@ -1,5 +1,6 @@
 #include "solver/energy/energy_sum.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "solver/core/check.h"
@@ -136,8 +137,11 @@ std::vector<std::pair<std::string, double>> EnergySum::values(const Points& u) c
     for (const EnergyGroup::Term& term : group.terms) {
       EnergyGroup alone = group;
       alone.terms = {term};
-      values.emplace_back(std::string(term.energy->name()),
-                          evaluate_group(alone, padded(u), nullptr));
+      const std::string name(term.energy->name());
+      auto entry = std::find_if(values.begin(), values.end(),
+                                [&](const auto& value) { return value.first == name; });
+      if (entry == values.end()) entry = values.emplace(values.end(), name, 0);
+      entry->second += evaluate_group(alone, padded(u), nullptr);
     }
   return values;
 }

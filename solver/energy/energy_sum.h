@@ -35,7 +35,7 @@ class SUPPLE_API EnergySum {
   double evaluate(const Points& u, Points* gradient = nullptr) const;
   double evaluate_padded(const PaddedPoints& u, PaddedPoints* gradient = nullptr) const;
 
-  /// Each term's λ Σ ω |r|² by its name.
+  /// λ Σ ω |r|² by the energy's name, over all its samples.
   std::vector<std::pair<std::string, double>> values(const Points& u) const;
 
   Index particles() const { return particles_; }

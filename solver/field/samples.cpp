@@ -169,7 +169,10 @@ InversionCount count_inversions(const Samples& samples, const Points& u) {
   InversionCount count;
   for (Index k = 0; k < samples.size(); ++k) {
     const double J = samples.deformation_gradient(k, u).determinant();
-    count.min_det_F = k == 0 ? J : std::min(count.min_det_F, J);
+    if (k == 0 || J < count.min_det_F) {
+      count.min_det_F = J;
+      count.worst = samples.points.row(k).transpose();
+    }
     if (!(J > 0)) ++count.inverted;
   }
   return count;

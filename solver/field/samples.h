@@ -60,9 +60,10 @@ enum class SampleContent { values, values_and_gradients };
 SUPPLE_API Samples sample_field(const MovingLeastSquares<3>& field, const Points& points,
                                 SampleContent content);
 
-/// The smallest det F over samples with gradients, and how many are ≤ 0.
+/// The smallest det F over samples with gradients, where it is, and how many are ≤ 0.
 struct InversionCount {
   double min_det_F = 1;
+  Vec3 worst = Vec3::Zero();  ///< the sample [m] with the smallest, at rest
   long inverted = 0;
 };
 SUPPLE_API InversionCount count_inversions(const Samples& samples, const Points& u);

@@ -26,6 +26,7 @@ std::span<const Case> coupling_cases();          ///< B: parts that nearly touch
 std::span<const Case> geometry_cases();          ///< B: shapes as they come
 std::span<const Case> point_cloud_cases();       ///< B: scans
 std::span<const Case> pose_cases();              ///< C: poses
+std::span<const Case> extreme_pose_cases();      ///< C: whole turns, reflections, wild weights
 std::span<const Case> destroyed_start_cases();   ///< C: solves from states without a shape
 std::span<const Case> input_cases();             ///< K: inputs and outputs
 std::span<const Case> solver_cases();            ///< L: what minimisers meet

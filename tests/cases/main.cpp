@@ -15,8 +15,8 @@ std::vector<Case> all_cases() {
   std::vector<Case> cases;
   for (const auto& group :
        {moment_matrix_cases(), degenerate_cloud_cases(), coupling_cases(), geometry_cases(),
-        point_cloud_cases(), pose_cases(), destroyed_start_cases(), input_cases(), solver_cases(),
-        repeated_pose_cases()})
+        point_cloud_cases(), pose_cases(), extreme_pose_cases(), destroyed_start_cases(),
+        input_cases(), solver_cases(), repeated_pose_cases()})
     cases.insert(cases.end(), group.begin(), group.end());
   return cases;
 }

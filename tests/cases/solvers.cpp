@@ -47,11 +47,6 @@ class Block {
   EnergySum energy_;
 };
 
-bool says(const Report& report, ReasonCode code) {
-  return std::any_of(report.reasons.begin(), report.reasons.end(),
-                     [&](const Reason& reason) { return reason.code == code; });
-}
-
 bool notes(const Report& report, std::string_view words) {
   return std::any_of(report.notes.begin(), report.notes.end(), [&](const std::string& note) {
     return note.find(words) != std::string::npos;
@@ -83,10 +78,11 @@ void measure_not_finite_costs(Figures& figures) {
     const MinimizeOptions options{.kind = kind, .max_iterations = 500};
     const Outcome start = minimized(from_the_start, options, from_the_start.at_rest());
     figures["start_failed"] += start.report.status == Status::failed &&
-                               says(start.report, ReasonCode::not_finite) && start.u.isZero(0);
+                               start.report.find(ReasonCode::not_finite) != nullptr &&
+                               start.u.isZero(0);
     const Outcome way = minimized(on_the_way, options, on_the_way.at_rest());
     figures["later_told"] +=
-        way.report.status != Status::ok && says(way.report, ReasonCode::not_finite);
+        way.report.status != Status::ok && way.report.find(ReasonCode::not_finite) != nullptr;
     figures["later_lower"] += way.u.allFinite() && way.after < way.before;
   }
 }
@@ -136,8 +132,8 @@ void measure_nlopt_without_numbers(Figures& figures) {
         block, {.kind = MinimizerKind::nlopt, .max_iterations = 1000000, .most_seconds = 60},
         block.at_rest());
     keep_greatest(figures["evaluations"], outcome.report.iterations);
-    figures["out_of_time"] += says(outcome.report, ReasonCode::out_of_time);
-    figures["told"] += says(outcome.report, ReasonCode::not_finite);
+    figures["out_of_time"] += outcome.report.find(ReasonCode::out_of_time) != nullptr;
+    figures["told"] += outcome.report.find(ReasonCode::not_finite) != nullptr;
     figures["rose"] += !outcome.u.allFinite() || !(outcome.after <= outcome.before);
   }
 }
@@ -154,7 +150,7 @@ void measure_solves_within(double budget, const char* late, Figures& figures) {
     const Report report = minimize(block.energy(), preconditioner,
                                    {.kind = kind, .tolerance = 1e-15, .most_seconds = budget}, u);
     keep_greatest(figures[late], static_cast<double>(slow.begun_after(budget)));
-    figures["solves_told"] += says(report, ReasonCode::out_of_time);
+    figures["solves_told"] += report.find(ReasonCode::out_of_time) != nullptr;
     figures["rose"] += !u.allFinite() || !(block.energy().evaluate(u) <= before);
   }
 }
@@ -168,11 +164,10 @@ void measure_pose_within(double budget, const std::string& hard_handles, Figures
                       "scene.yaml", "");
   const PoseResult result = pose(case_bar(), scene);
   figures["poses_bad"] += !result.mesh.positions.allFinite() || !(result.min_det_F > 0);
-  for (const Reason& reason : result.report.reasons)
-    if (reason.code == ReasonCode::out_of_time) {
-      ++figures["poses_told"];
-      keep_greatest(figures["share_of_the_way"], reason.value);
-    }
+  if (const Reason* reason = result.report.find(ReasonCode::out_of_time)) {
+    ++figures["poses_told"];
+    keep_greatest(figures["share_of_the_way"], reason->value);
+  }
 }
 
 void measure_time_budgets(Figures& figures) {
@@ -212,7 +207,7 @@ void measure_escalation(Figures& figures) {
   const Block lonely(island);
   const Outcome invalid = minimized(lonely, {}, lonely.at_rest());
   figures["invalid_steps_told"] = notes(invalid.report, "the trust region took over") &&
-                                  says(invalid.report, ReasonCode::not_finite);
+                                  invalid.report.find(ReasonCode::not_finite) != nullptr;
   figures["invalid_steps_moved"] = (invalid.u - lonely.at_rest()).norm();
 }
 

@@ -51,7 +51,22 @@ complain() {
   failures=$((failures + 1))
 }
 
+# times FUNCTION NAME: how often the pose of that name called it
+times() {
+  awk -v name="$1" '
+    /^c?fn=/ && match($0, /\([0-9]+\)/) {
+      id = substr($0, RSTART, RLENGTH)
+      if (index($0, name)) wanted[id] = 1
+      if (/^cfn=/) callee = id
+    }
+    /^calls=/ { if (callee in wanted) count += substr($1, 7) }
+    END { print count + 0 }' "$2.out"
+}
+
 called plain
+(($(times PoseSolver::step plain) == 1)) || complain 'a plain pose takes more steps than one'
+called asked --set pose.substeps=3
+(($(times PoseSolver::step asked) == 3)) || complain 'pose.substeps=3 does not take three steps'
 grep -q 'RigidityEnergy::add_square' plain.txt || complain 'the rigidity is not seen: no names?'
 for effect in "${effects[@]}"; do
   pattern=${effect%|*} setting=${effect##*|}
