@@ -167,7 +167,8 @@ void judge(const Solid& solid, const SolidField& field, const PoseSpec& spec,
       report.fail({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
                    what + ", which no_inversion forbids"});
     else
-      report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F, what});
+      report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
+                      what + "; no_inversion may keep them in"});
   }
   judge_handles(spec, result);
   judge_cover(solid, field, report);

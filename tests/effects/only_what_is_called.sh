@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Counts calls by callgrind: a pose that asks for no effect beside handles and rigidity executes no
-# function of the others, one that asks for each of them does.
+# Counts calls by callgrind and allocations by dhat: a pose that asks for no effect beside handles and
+# rigidity executes no function of the others, allocates no byte by them and takes one step; one that
+# asks for each of them does.
 #   only_what_is_called.sh PROGRAM FOLDER
 set -euo pipefail
 program=$1
@@ -51,6 +52,14 @@ complain() {
   failures=$((failures + 1))
 }
 
+# allocating NAME: the functions that allocated memory in that pose, or called what did
+allocating() {
+  valgrind --tool=dhat --num-callers=50 --dhat-out-file="$1.dhat" \
+    "$program" pose pose.yaml --threads 1 --quiet --allow-degraded -o posed.off \
+    >"$1.log" 2>&1 || { cat "$1.log" >&2; return 1; }
+  sed -n '/"ftbl"/,$p' "$1.dhat" | sort -u
+}
+
 # times FUNCTION NAME: how often the pose of that name called it
 times() {
   awk -v name="$1" '
@@ -68,9 +77,12 @@ called plain
 called asked --set pose.substeps=3
 (($(times PoseSolver::step asked) == 3)) || complain 'pose.substeps=3 does not take three steps'
 grep -q 'RigidityEnergy::add_square' plain.txt || complain 'the rigidity is not seen: no names?'
+allocating plain >plain_allocating.txt
+grep -q 'EnergySum::add' plain_allocating.txt || complain 'no allocation is seen: no names?'
 for effect in "${effects[@]}"; do
   pattern=${effect%|*} setting=${effect##*|}
   if grep -E "$pattern" plain.txt; then complain "a plain pose calls $pattern"; fi
+  if grep -E "$pattern" plain_allocating.txt; then complain "a plain pose allocates by $pattern"; fi
   [[ -n $setting ]] || continue
   called asked --set "$setting"
   grep -qE "$pattern" asked.txt || complain "$setting does not call $pattern"
