@@ -129,6 +129,7 @@ struct PoseSpec {
   int max_iterations = 2000;
   double tolerance = 1e-6;
   std::optional<double> most_seconds;
+  static constexpr int most_substeps = 10000;
   std::optional<int> substeps;
   SurfaceKind surface = SurfaceKind::field;
   bool fill_gaps = false;
@@ -152,7 +153,11 @@ struct PoseSpec {
            .exclusive_min = true});
     visit("mirror", self.mirror,
           {.doc = "plane: every handle acts mirrored on its other side too"});
-    visit("solver", self.solver, {.doc = "minimiser", .sweep = {.kind = Sweep::Kind::names}});
+    visit("solver", self.solver,
+          {.doc = "minimiser; nlopt, an independent check, is for a hundred particles or so: the "
+                  "time of "
+                  "one of its iterations grows with their cube",
+           .sweep = {.kind = Sweep::Kind::names}});
     visit("hard_handles", self.hard_handles,
           {.doc = "true: handles are met exactly, as far as the particles can and they do not "
                   "contradict each other"});
@@ -173,7 +178,7 @@ struct PoseSpec {
     visit("substeps", self.substeps,
           {.doc = "steps on the handles' way; default: as their turns and moves need",
            .min = 1,
-           .max = 10000});
+           .max = most_substeps});
     visit("surface", self.surface, {.doc = "how the surface follows the particles"});
     visit("fill_gaps", self.fill_gaps,
           {.doc = "true: a point cloud gets points where neighbours part by more than 1.5 times "

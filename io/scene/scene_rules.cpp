@@ -54,6 +54,9 @@ void check_rules(const PoseSpec& pose, const SceneItem& item) {
   if (pose.hard_handles && pose.solver == MinimizerKind::trust_region)
     complain(place_of(item, "hard_handles"),
              "pose.hard_handles: true, with solver: trust_region; allowed: with lbfgs, nlopt");
+  if (pose.no_inversion && pose.surface != SurfaceKind::field)
+    complain(place_of(item, "no_inversion"),
+             "pose.no_inversion: true, with surface: particle_gradients; allowed: with field");
   if (pose.region_blend && !pose.region)
     complain(place_of(item, "region_blend"),
              "pose.region_blend: pose.region is missing; allowed: only with it");

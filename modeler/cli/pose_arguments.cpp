@@ -32,7 +32,9 @@ Examples:
 void check_distinct(const std::vector<std::string>& paths) {
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (!paths[i].empty() && paths[i] == paths[j])
+      if (!paths[i].empty() && !paths[j].empty() &&
+          std::filesystem::weakly_canonical(paths[i]) ==
+              std::filesystem::weakly_canonical(paths[j]))
         throw UsageError(fmt::format("{} is named for two outputs", paths[i]));
 }
 

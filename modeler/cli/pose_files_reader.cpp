@@ -11,10 +11,21 @@
 namespace supple {
 namespace {
 
+/// What `read` gives; where it cannot, with the place in the scene that names the file.
+template <class Read>
+auto read_named(const NamedFile& file, const Read& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", to_string(file.place), error.what()));
+  }
+}
+
 /// The positions in a mesh or a cloud that has as many vertices as the shape.
 Points read_positions(const NamedFile& file, std::string_view key, const Scene& scene,
                       Index vertices) {
-  Points positions = read_mesh(scene.folder / file.path).positions;
+  Points positions =
+      read_named(file, [&] { return read_mesh(scene.folder / file.path).positions; });
   if (positions.rows() != vertices)
     complain(file.place, fmt::format("{}: {} has {} vertices, the shape {}; allowed: another pose "
                                      "of the same vertices",
@@ -25,7 +36,8 @@ Points read_positions(const NamedFile& file, std::string_view key, const Scene& 
 VertexPlaces read_targets(const HandleSpec& handle, const Scene& scene, Index vertices) {
   if (!handle.to) return {};
   const NamedFile& file = *handle.to;
-  if (!can_write_mesh(file.path)) return read_vertex_places(scene.folder / file.path, vertices);
+  if (!can_write_mesh(file.path))
+    return read_named(file, [&] { return read_vertex_places(scene.folder / file.path, vertices); });
   if (!handle.move)
     complain(file.place, fmt::format("move is missing beside to: {}: which of its vertices count; "
                                      "allowed without it: text with lines \"number x y z\"",

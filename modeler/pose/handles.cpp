@@ -225,8 +225,9 @@ int substeps_needed(const HandleSamples& handles, Index particles) {
   // All handles moving as one body bend nothing, however far they turn.
   if (bend < 1e-9 && turn <= EIGEN_PI) return 1;
   const double finer = std::cbrt(std::max(1.0, double(particles) / particles_at_most_turn));
-  return std::max({1, static_cast<int>(std::ceil(turn / most_turn_per_step * finer - 1e-9)),
-                   static_cast<int>(std::ceil(bend / most_bend_per_step * finer - 1e-9))});
+  const double steps =
+      std::ceil(std::max(turn / most_turn_per_step, bend / most_bend_per_step) * finer - 1e-9);
+  return static_cast<int>(std::clamp<double>(steps, 1, PoseSpec::most_substeps));
 }
 
 }  // namespace supple

@@ -9,8 +9,8 @@
 #include "io/scene/complaint.h"
 #include "modeler/plan/plan.h"
 #include "modeler/pose/handles.h"
+#include "modeler/pose/inversion_guard.h"
 #include "modeler/pose/mirrored_handle.h"
-#include "modeler/pose/no_inversion.h"
 #include "modeler/pose/pose_measures.h"
 #include "modeler/pose/pose_solver.h"
 #include "modeler/pose/posed_field.h"
@@ -97,7 +97,7 @@ Report solve(const Solid& solid, const SolidField& field, const HandleSamples& h
   const Stopwatch watch;
   const auto on_step = [&](double share) { stages.advance(share); };
   Report report = spec.no_inversion
-                      ? solve_without_inversion(solid, field, options, on_step, solver, u)
+                      ? InversionGuard(solid, field, solver).solve(options, on_step, u)
                       : solver.solve(options, on_step, u);
   const double seconds = watch.seconds();
   for (const auto& [name, share] : solver.time_shares(u))

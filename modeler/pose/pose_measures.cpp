@@ -80,6 +80,7 @@ namespace {
 constexpr double hard_miss = 1e-6;
 
 void judge_handles(const PoseSpec& spec, PoseResult& result) {
+  if (result.report.status == Status::failed) return;
   const double limit = spec.hard_handles ? hard_miss : reason_limit(ReasonCode::handle_miss);
   if (!(result.handle_max_error > limit)) return;
   const long missed =
@@ -142,6 +143,21 @@ void judge_turns(const HandleSamples& handles, int substeps, Report& report) {
                                 std::ceil((1 - rounding) * most / EIGEN_PI))});
 }
 
+void judge_inversion(const InversionCount& inversion, const Vec3& place, const PoseSpec& spec,
+                     Report& report) {
+  if (inversion.inverted == 0) return;
+  const std::string what = fmt::format(
+      "{} points are turned inside out, the worst with det F = {:.3g} at ({:.6g}, "
+      "{:.6g}, {:.6g}) of the rest shape",
+      inversion.inverted, inversion.min_det_F, place[0], place[1], place[2]);
+  if (spec.no_inversion)
+    report.fail({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
+                 what + ", which no_inversion forbids"});
+  else
+    report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
+                    what + "; no_inversion may keep them in"});
+}
+
 void judge_start(const StartingPose& from, Report& report) {
   const double percent = 100 * from.miss;
   report.notes.push_back(
@@ -157,23 +173,11 @@ void judge(const Solid& solid, const SolidField& field, const PoseSpec& spec,
            const InversionCount& inversion, PoseResult& result) {
   Report& report = result.report;
   for (const Reason& reason : solid.reasons()) report.degrade(reason);
-  if (inversion.inverted > 0) {
-    const Vec3& at = result.min_det_F_place;
-    const std::string what = fmt::format(
-        "{} points are turned inside out, the worst with det F = {:.3g} at ({:.6g}, "
-        "{:.6g}, {:.6g}) of the rest shape",
-        inversion.inverted, inversion.min_det_F, at[0], at[1], at[2]);
-    if (spec.no_inversion)
-      report.fail({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
-                   what + ", which no_inversion forbids"});
-    else
-      report.degrade({ReasonCode::inverted, inversion.inverted, inversion.min_det_F,
-                      what + "; no_inversion may keep them in"});
-  }
+  judge_inversion(inversion, result.min_det_F_place, spec, report);
   judge_handles(spec, result);
   judge_cover(solid, field, report);
   const double change = result.volume_after / result.volume_before - 1;
-  if (std::abs(change) > notable_volume_change)
+  if (std::abs(change) > notable_volume_change && report.status != Status::failed)
     report.notes.push_back(fmt::format(
         "the volume changed by {:+.1f} %: a greater weights.volume keeps it better", 100 * change));
   if (!result.mesh.positions.allFinite())

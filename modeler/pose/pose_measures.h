@@ -25,6 +25,11 @@ InversionCount worst_inversion(const Solid& solid, const SolidField& field, cons
 /// whole turns, and steps of more than half a turn turn the other way, or not at all.
 void judge_turns(const HandleSamples& handles, int substeps, Report& report);
 
+/// Points inside out, the worst of them at `place` of the rest shape [user's coordinates]:
+/// degraded, or failed where the scene forbids it.
+void judge_inversion(const InversionCount& inversion, const Vec3& place, const PoseSpec& spec,
+                     Report& report);
+
 /// How well the pose to start from is met.
 void judge_start(const StartingPose& from, Report& report);
 

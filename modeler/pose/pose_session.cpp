@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/scene/complaint.h"
+#include "modeler/pose/pose_measures.h"
 #include "modeler/pose/stiffness.h"
 #include "solver/core/check.h"
 #include "solver/core/deadline.h"
@@ -42,7 +43,7 @@ PoseSession::PoseSession(const Mesh& mesh, const Scene& scene)
                           solid_.restored(field_->points.points));
   solver_ = std::make_unique<PoseSolver>(field_->mls, field_->quadrature, field_->points.volumes,
                                          handles_, spec.weights, stiffness);
-  if (spec.no_inversion) solver_->forbid_inversion();
+  if (spec.no_inversion) guard_.emplace(solid_, *field_, *solver_);
   u_ = PaddedPoints::Zero(solid_.particles().size(), 4);
 }
 
@@ -69,18 +70,29 @@ Lbfgs::Result PoseSession::drag(const MinimizeOptions& minimize) {
 }
 
 Report PoseSession::release() {
+  const PoseSolveOptions all = options();
+  PoseSolveOptions left = all;
+  const Deadline deadline(all.most_seconds);
+  const auto on_step = [](double) {};
   Points here = u_.leftCols<3>(), from_rest = Points::Zero(u_.rows(), 3);
-  PoseSolveOptions left = options();
-  const Deadline deadline(left.most_seconds);
-  const Report polished = solver_->polish(left, here);
+  Report polished = solver_->polish(all, here);
   left.most_seconds = deadline.left();
-  Report walked = solver_->solve(
-      left, [](double) {}, from_rest);
+  Report walked =
+      guard_ ? guard_->solve(left, on_step, from_rest) : solver_->solve(left, on_step, from_rest);
   walked.finish();
-  const bool keep =
-      polished.usable() && (!walked.usable() || polished.total_energy() < walked.total_energy());
+  judge_shape(here, polished);
+  judge_shape(from_rest, walked);
+  const bool sound = polished.usable() == walked.usable();
+  const bool keep = sound ? polished.total_energy() < walked.total_energy() : polished.usable();
   u_.leftCols<3>() = keep ? here : from_rest;
   return keep ? polished : walked;
+}
+
+void PoseSession::judge_shape(const Points& u, Report& report) const {
+  const DeformedSurface surface = field_->surface.deform(u, solid_.particles().volumes);
+  const InversionCount inversion = worst_inversion(solid_, *field_, u, surface);
+  judge_inversion(inversion, solid_.origin() + solid_.unit() * inversion.worst, *scene_.pose,
+                  report);
 }
 
 void PoseSession::deform(FloatPoints& positions) {

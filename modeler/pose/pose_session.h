@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "io/mesh/mesh.h"
 #include "io/scene/scene.h"
+#include "modeler/pose/inversion_guard.h"
 #include "modeler/pose/pose_solver.h"
 #include "modeler/pose/scene_handles.h"
 #include "modeler/pose/solid_field.h"
@@ -29,12 +31,15 @@ class PoseSession {
   /// points and lengths in the user's coordinates.
   void lead(std::size_t handle, const HandlePath& path);
 
-  /// One step of a drag: from the pose there is to the nearest minimum with the handles led so.
+  /// One step of a drag: from the pose there is to the nearest minimum with the handles led so, by
+  /// L-BFGS whatever the scene's solver. With no_inversion the barrier stands where energies are
+  /// summed; release() looks at the surface's vertices too.
   Lbfgs::Result drag(const MinimizeOptions& options = {.tolerance = 1e-4});
 
   /// The pose that counts when the drag is over: minimised as the scene asks from the pose there
-  /// is, and once more on the way from rest; the lower one stays. So it is no worse than pose()'s,
-  /// whatever the drag went through.
+  /// is, and once more on the way from rest; the lower one stays, or the one that keeps what the
+  /// scene forbids. So it is no worse than pose()'s, whatever the drag went through. The report
+  /// says where points are inside out.
   Report release();
 
   /// The surface in the pose there is [user's coordinates], n×3, in the input's order of vertices.
@@ -44,6 +49,8 @@ class PoseSession {
 
  private:
   PoseSolveOptions options() const;
+  /// Degrades where points are inside out; fails where the scene forbids that.
+  void judge_shape(const Points& u, Report& report) const;
 
   const Scene scene_;
   const Mesh rest_;
@@ -52,6 +59,7 @@ class PoseSession {
   HandleSamples handles_;
   std::unique_ptr<const SolidField> field_;
   std::unique_ptr<PoseSolver> solver_;
+  std::optional<InversionGuard> guard_;
   SurfaceEmbedding::Scratch scratch_;
   VertexNormals normals_;
   PaddedPoints u_;    ///< over the shape's diagonal

@@ -15,8 +15,8 @@ namespace {
 /// Steps on the way only prepare the next one.
 constexpr double tolerance_on_the_way = 1e-4;
 
-/// A step is halved this often at most.
-constexpr double smallest_step = 1.0 / 8;
+/// Steps are halved down to this share of one: where the shape sprang, where none can be taken.
+constexpr double smallest_step = 1.0 / 8, smallest_blocked_step = 1.0 / 64;
 
 /// From this ratio of volume to rigidity on L-BFGS, whose preconditioner knows no volume term,
 /// takes so many iterations that its steps on the way end early; the trust region is sure, if
@@ -40,11 +40,10 @@ void merge(const Report& step, Report& way) {
   for (const Reason& reason : step.reasons) {
     if (Reason* known = way.find(reason.code))
       ++known->count;
-    else if (step.status == Status::failed)
-      way.fail(reason);
     else
       way.degrade(reason);
   }
+  if (step.status == Status::failed) way.status = Status::failed;
   for (const std::string& note : step.notes)
     if (std::find(way.notes.begin(), way.notes.end(), note) == way.notes.end())
       way.notes.push_back(note);
@@ -89,6 +88,10 @@ Report PoseSolver::solve(const PoseSolveOptions& options,
   Report way;
   if (fixed.options.kind != options.minimize.kind)
     way.notes.push_back("weights.volume is far above weights.rigidity: solved by the trust region");
+  if (heavy() && fixed.constraints && fixed.options.kind == MinimizerKind::lbfgs)
+    way.degrade({ReasonCode::not_converged, 1, weights_.volume / weights_.rigidity,
+                 "weights.volume is far above weights.rigidity, and hard_handles leave that to "
+                 "L-BFGS, which may end above the minimum"});
   double share = 0, factor = 1, energy = 0, most_energy = 0;
   while (share < 1 && way.status != Status::failed) {
     // The last step ends at 1 exactly.
@@ -100,6 +103,16 @@ Report PoseSolver::solve(const PoseSolveOptions& options,
       end_early(share, report, pose, u, way);
       break;
     }
+    // Handles that are met at once, or a barrier, may leave a step without a place to start from.
+    const bool blocked = report.status == Status::failed && report.find(ReasonCode::not_finite);
+    if (blocked && factor > smallest_blocked_step) {
+      factor *= 0.5;
+      continue;
+    }
+    if (blocked)
+      report.find(ReasonCode::not_finite)->detail = fmt::format(
+          "the energy is not finite wherever a step from {:.0f} % of the handles' way may start",
+          100 * share);
     const double lost = energy - report.total_energy();
     const bool sprang =
         lost > reason_limit(ReasonCode::turn_lost) * most_energy && most_energy > no_energy;
@@ -148,10 +161,13 @@ void PoseSolver::judge_reach(Report& report) const {
                                 outside, handle_samples_.size())});
 }
 
+bool PoseSolver::heavy() const {
+  return weights_.volume >= heavy_volume * weights_.rigidity;
+}
+
 PoseSolver::Way PoseSolver::way_of(const PoseSolveOptions& options) const {
   Way way{*preconditioner_, {}, options.minimize, Deadline(options.most_seconds)};
-  const bool heavy = weights_.volume >= heavy_volume * weights_.rigidity;
-  if (heavy && way.options.kind == MinimizerKind::lbfgs && !options.hard_handles)
+  if (heavy() && way.options.kind == MinimizerKind::lbfgs && !options.hard_handles)
     way.options.kind = MinimizerKind::trust_region;
   if (options.hard_handles)
     way.constraints.emplace(handle_samples_, handles_.weights(), handles_.targets(1),
@@ -168,6 +184,14 @@ Report PoseSolver::polish(const PoseSolveOptions& options, Points& u) {
   return report;
 }
 
+Report PoseSolver::repair(const PoseSolveOptions& options, Points& u) {
+  const Way way = way_of(options);
+  handle_energy_.set_targets(handles_.targets(1));
+  Report report;
+  mend(way, u, report);
+  return report;
+}
+
 Lbfgs::Result PoseSolver::drag(const PoseSolveOptions& options, PaddedPoints& u) {
   handles_.targets(1, targets_);
   handle_energy_.set_targets(targets_);
@@ -175,6 +199,7 @@ Lbfgs::Result PoseSolver::drag(const PoseSolveOptions& options, PaddedPoints& u)
     return lbfgs_.minimize(energy_, *preconditioner_, options.minimize, nullptr, u);
   if (!constraints_)
     constraints_.emplace(handle_samples_, handles_.weights(), targets_, *preconditioner_);
+  constraints_->decide(targets_);
   Points met = u.leftCols<3>();
   constraints_->meet(targets_, met);
   u.leftCols<3>() = met;
@@ -214,7 +239,7 @@ void PoseSolver::mend(const Way& way, Points& u, Report& report) {
   EnergySum nearly_rigid(particles_.rows());
   nearly_rigid.add(handle_energy_, handle_samples_, handles_.weights(), weights_.handles);
   nearly_rigid.add(rotations, quadrature_, volume_shares_, 1);
-  repair(nearly_rigid, rotations, quadrature_, way.deadline, mended);
+  supple::repair(nearly_rigid, rotations, quadrature_, way.deadline, mended);
   if (weights_.volume < weights_.rigidity) {
     EnergySum balanced(particles_.rows());
     balanced.add(handle_energy_, handle_samples_, handles_.weights(), weights_.handles);

@@ -56,6 +56,9 @@ class PoseSolver {
   /// inside out there are repaired.
   Report polish(const PoseSolveOptions& options, Points& u);
 
+  /// Takes points that are inside out in `u` back, with the handles where they shall be at last.
+  Report repair(const PoseSolveOptions& options, Points& u);
+
   /// One step of a drag: as polish(), from `u` [N×4], by L-BFGS alone and without repair. With soft
   /// handles only the first one allocates.
   Lbfgs::Result drag(const PoseSolveOptions& options, PaddedPoints& u);
@@ -78,6 +81,8 @@ class PoseSolver {
   };
 
   Way way_of(const PoseSolveOptions& options) const;
+  /// Whether the volume weighs so much that L-BFGS is not sure to get to the minimum.
+  bool heavy() const;
   /// Brings the handles from one share of their way to the next and minimises.
   Report step(const Way& way, double from, double to, Points& u);
   /// The time was over in the step after `share`, whose unfinished pose `u` takes, unless more

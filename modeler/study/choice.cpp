@@ -120,8 +120,12 @@ Choice choose_for_error(const Study& study, const std::vector<Knob>& chosen, con
     if (knob.converges) particles = error_law(study, knob);
     if (!knob.exact.empty()) tolerance = error_law(study, knob);
   }
+  Choice none;
+  if (std::none_of(chosen.begin(), chosen.end(), [](const Knob& knob) { return knob.converges; })) {
+    none.why_not = "particles were not studied: add them to --knobs";
+    return none;
+  }
   if (!particles) {
-    Choice none;
     none.why_not =
         "the errors of the particles do not fall clearly beyond the reference's uncertainty; " +
         reachable(study);

@@ -1,5 +1,6 @@
 #include "modeler/study/pose_trial.h"
 
+#include <cmath>
 #include <new>
 
 #include <fmt/format.h>
@@ -57,7 +58,14 @@ TrialOutcome run_pose_trial(const Mesh& shape, const Scene& scene, const PoseFil
   };
   TrialOutcome outcome;
   try {
-    outcome = outcome_of(pose(shape, overridden(scene, settings), within_budget, files));
+    Scene trial = overridden(scene, settings);
+    // A step is longer than the time between two looks at the clock.
+    std::optional<double>& solve_seconds = trial.pose->most_seconds;
+    const bool limited = !solve_seconds || *solve_seconds > most_seconds;
+    if (limited && std::isfinite(most_seconds)) solve_seconds = most_seconds;
+    const PoseResult result = pose(shape, trial, within_budget, files);
+    if (limited && result.report.find(ReasonCode::out_of_time)) throw Interrupted("out of time");
+    outcome = outcome_of(result);
   } catch (const Interrupted&) {
     if (stopped) throw;
     outcome = failed(fmt::format("stopped after {:.2g} s: it was given {:.2g} s", watch.seconds(),

@@ -150,6 +150,8 @@ void find_pareto(Study& study) {
     for (const std::size_t i : study.pareto) row.pareto |= study.rows[i].trial == row.trial;
   if (!study.own || !Study::compared(study.rows[*study.own])) return;
   const StudyRow& own = study.rows[*study.own];
+  // Nothing is better than an error that cannot be told from none.
+  if (own.error && *own.error <= own.uncertainty) return;
   for (const std::size_t i : study.pareto)
     if ((1 - least_gain) * *Study::compared(study.rows[i]) <= *Study::compared(own) &&
         study.seconds(study.rows[i]) < study.seconds(own))

@@ -45,7 +45,9 @@ class SweepRun {
     for (std::size_t i = 0; i < sweeps_.trials.size(); ++i) {
       Trial& trial = sweeps_.trials[i];
       const Forecast forecast = forecast_of(i);
-      if (forecast.seconds <= left())
+      if (left() == 0)
+        trial.skipped = "the budget is spent";
+      else if (forecast.seconds <= left())
         run_once(trial, forecast.most_seconds);
       else
         trial.skipped = fmt::format("predicted to take {:.2g} s, with {:.2g} s of the budget left",
@@ -99,7 +101,7 @@ class SweepRun {
   double predict(const KnobSweep& sweep, const SweepPoint& point) const {
     std::vector<std::pair<double, double>> times;
     for (const SweepPoint& other : sweep.points)
-      if (const Trial& trial = sweeps_.trials[other.trial]; !trial.seconds.empty())
+      if (const Trial& trial = sweeps_.trials[other.trial]; trial.usable())
         times.emplace_back(other.number, median(trial.seconds));
     if (const auto law = fit_power_law(times)) return law->at(point.number);
     if (sweep.knob.converges && !times.empty())

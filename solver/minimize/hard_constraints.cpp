@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 
 #include "solver/core/check.h"
 
@@ -16,8 +17,9 @@ constexpr double no_rank = 1e-10;
 /// displacements to follow both as well as they can.
 constexpr double contradicted_rank = 0.1;
 
-/// What no displacements can meet, over how far the targets move.
-constexpr double contradiction = 1e-6;
+/// What no displacements can meet, over how far the targets move; ways below a share of the size
+/// contradict nothing.
+constexpr double contradiction = 1e-6, no_way = 1e-6;
 
 std::vector<int> particles_of(const Samples& samples) {
   std::vector<int> particles = samples.particles;
@@ -45,34 +47,50 @@ Eigen::MatrixXd weighted_rows(const Samples& samples, const Eigen::VectorXd& roo
 
 HardConstraints::HardConstraints(const Samples& samples, const Eigen::VectorXd& weights,
                                  const Points& targets, const Preconditioner& preconditioner)
-    : samples_(samples), preconditioner_(preconditioner), particles_(particles_of(samples)) {
+    : samples_(samples),
+      preconditioner_(preconditioner),
+      particles_(particles_of(samples)),
+      roots_(weights.cwiseSqrt()) {
   SUPPLE_CHECK(weights.size() == samples.size(), "one weight a sample");
-  const Eigen::VectorXd roots = weights.cwiseSqrt();
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(weighted_rows(samples, roots, particles_),
-                                           Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const auto above = [&](double share) {
-    return (svd.singularValues().array() > share * svd.singularValues()[0]).count();
-  };
-  const Eigen::MatrixXd way = roots.asDiagonal() * (targets - samples.points);
-  const auto U = svd.matrixU().leftCols(above(no_rank));
-  const double missed = (way - U * (U.transpose() * way)).norm();
-  const Index tied =
-      missed > contradiction * way.norm() ? above(contradicted_rank) : above(no_rank);
-  left_free_ = above(no_rank) - tied;
-  V_ = svd.matrixV().leftCols(tied);
-  from_places_ = svd.singularValues().head(tied).cwiseInverse().asDiagonal() *
-                 svd.matrixU().leftCols(tied).transpose() * roots.asDiagonal();
+  // Of many more rows than columns: those of R have the same σ and V.
+  const Eigen::HouseholderQR<Eigen::MatrixXd> rows(weighted_rows(samples, roots_, particles_));
+  const Index square = std::min(rows.rows(), rows.cols());
+  const Eigen::BDCSVD<Eigen::MatrixXd> svd(
+      Eigen::MatrixXd(rows.matrixQR().topRows(square).triangularView<Eigen::Upper>()),
+      Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Index rank = (svd.singularValues().array() > no_rank * svd.singularValues()[0]).count();
+  sigma_ = svd.singularValues().head(rank);
+  V_ = svd.matrixV().leftCols(rank);
+  Eigen::MatrixXd U = Eigen::MatrixXd::Zero(samples.size(), rank);
+  U.topRows(square) = svd.matrixU().leftCols(rank);
+  U.applyOnTheLeft(rows.householderQ());
+  from_places_ = U.transpose() * roots_.asDiagonal();
+  decide(targets);
+}
 
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows_by_unknowns());
-  Q_ = qr.householderQ() * Eigen::MatrixXd::Identity(preconditioner.particles(), V_.cols());
-  R_ = qr.matrixQR().topRows(V_.cols()).triangularView<Eigen::Upper>();
+void HardConstraints::decide(const Points& targets) {
+  const Points way = targets - samples_.points;
+  const double squared = (roots_.asDiagonal() * way).squaredNorm();
+  const double met = (from_places_ * way).squaredNorm();
+  const double size = (roots_.asDiagonal() * samples_.points).norm();
+  const double missed = std::sqrt(std::max(0.0, squared - met));
+  const bool contradict = missed > contradiction * std::max(std::sqrt(squared), no_way * size);
+  tie(contradict ? (sigma_.array() > contradicted_rank * sigma_[0]).count() : sigma_.size());
+}
+
+void HardConstraints::tie(Index count) {
+  if (count == tied()) return;
+  left_free_ = sigma_.size() - count;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(rows_by_unknowns(count));
+  Q_ = qr.householderQ() * Eigen::MatrixXd::Identity(preconditioner_.particles(), count);
+  R_ = qr.matrixQR().topRows(count).triangularView<Eigen::Upper>();
 }
 
 /// L⁻¹ P V: what y has to do with the tied directions.
-Eigen::MatrixXd HardConstraints::rows_by_unknowns() const {
-  Eigen::MatrixXd rows(preconditioner_.particles(), V_.cols());
-  for (Index first = 0; first < V_.cols(); first += 3) {
-    const Index count = std::min<Index>(3, V_.cols() - first);
+Eigen::MatrixXd HardConstraints::rows_by_unknowns(Index tied) const {
+  Eigen::MatrixXd rows(preconditioner_.particles(), tied);
+  for (Index first = 0; first < tied; first += 3) {
+    const Index count = std::min<Index>(3, tied - first);
     Points columns = Points::Zero(rows.rows(), 3);
     for (std::size_t i = 0; i < particles_.size(); ++i)
       columns.row(particles_[i]).leftCols(count) =
@@ -95,8 +113,9 @@ void HardConstraints::project(PaddedPoints& y, PaddedPoints& along) const {
 }
 
 void HardConstraints::meet(const Points& targets, Points& u) const {
-  const Points wanted = from_places_ * (targets - samples_.points);
-  const Points missing = wanted - V_.transpose() * u(particles_, Eigen::all);
+  const Points wanted = sigma_.head(tied()).cwiseInverse().asDiagonal() *
+                        (from_places_.topRows(tied()) * (targets - samples_.points));
+  const Points missing = wanted - V_.leftCols(tied()).transpose() * u(particles_, Eigen::all);
   Points y = Q_ * R_.transpose().triangularView<Eigen::Lower>().solve(missing);
   preconditioner_.to_displacements(y);
   u += y;

@@ -18,9 +18,12 @@ class SUPPLE_API HardConstraints {
  public:
   using Basis = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// `weights` ω_k > 0 of the samples; `targets` [m] n×3: how far they will be led at last.
+  /// `weights` ω_k > 0 of the samples; `targets` [m] n×3: where they will be led at last.
   HardConstraints(const Samples& samples, const Eigen::VectorXd& weights, const Points& targets,
                   const Preconditioner& preconditioner);
+
+  /// Decides again what is tied, for other targets [m], n×3, to be led to at last.
+  void decide(const Points& targets);
 
   /// Takes u [N×3] to the displacements that meet the targets [m], n×3, nearest in the measure of
   /// the preconditioner.
@@ -34,14 +37,17 @@ class SUPPLE_API HardConstraints {
   Index left_free() const { return left_free_; }  ///< directions, where targets contradict
 
  private:
-  Eigen::MatrixXd rows_by_unknowns() const;
+  void tie(Index count);
+  Eigen::MatrixXd rows_by_unknowns(Index tied) const;
 
   const Samples& samples_;
   const Preconditioner& preconditioner_;
   std::vector<int> particles_;   ///< that the samples feel
-  Eigen::MatrixXd V_;            ///< particles_ × tied
-  Eigen::MatrixXd from_places_;  ///< Σ⁻¹ Uᵀ √W, tied × n
-  Basis Q_;                      ///< of L⁻¹ P V
+  Eigen::VectorXd roots_;        ///< √W
+  Eigen::VectorXd sigma_;        ///< those above rounding, descending
+  Eigen::MatrixXd V_;            ///< particles_ × rank
+  Eigen::MatrixXd from_places_;  ///< Uᵀ √W, rank × n
+  Basis Q_;                      ///< of L⁻¹ P V, its tied columns
   Eigen::MatrixXd R_;
   Index left_free_ = 0;
 };

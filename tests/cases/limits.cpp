@@ -168,6 +168,7 @@ constexpr Limit table[] = {
     // From a ratio of 1e4 on the trust region is chosen; at 1e3 L-BFGS takes 15 times the iterations
     // that it takes at 1, and a quarter of the trust region's time.
     {"C14", "iterations_over_usual", at_most, 10, "of the trust region, against volume weight 1"},
+    // By the same measure 0.91 at 1e4, 0.89 at 1e5, 0.88 at 1e6: short of 0.9.
     {"C14", "way_over_finer", at_least, 0.9, "of a face pulled weakly, 200 particles over 1000, 1e3"},
     {"C15", "off_constrained", at_most, 1e-6, "weights 1e9 : 1e-3 against hard handles, over L"},
     {"C16", "off_cold_before_release", at_least, 1e-3, "1000 jumps of 5 iterations, over L"},

@@ -32,12 +32,6 @@ HandlePath path_of(const Vec3& by, double degrees) {
   return path;
 }
 
-double energy_of(const Report& report) {
-  double sum = 0;
-  for (const auto& [name, value] : report.energies) sum += value;
-  return sum;
-}
-
 double difference(const FloatPoints& a, const Points& b) {
   return (a.cast<double>() - b).rowwise().norm().maxCoeff() / diagonal();
 }
@@ -60,7 +54,7 @@ TEST(PoseSession, ADragInSmallStepsEndsWherePoseEnds) {
   const PoseResult at_once = pose(bar(), scene_with("  handles:\n    - fix: z<10%\n    - {move: "
                                                     "z>90%, by: [1, 0, -0.3], turn: {axis: [0, 1, "
                                                     "0], degrees: 30, about: [0.5, 0.5, 4]}}\n"));
-  EXPECT_NEAR(last.energy, energy_of(at_once.report), 1e-3 * energy_of(at_once.report));
+  EXPECT_NEAR(last.energy, at_once.report.total_energy(), 1e-3 * at_once.report.total_energy());
   FloatPoints positions;
   session.deform(positions);
   EXPECT_LT(difference(positions, at_once.mesh.positions), 2e-3);
@@ -81,7 +75,41 @@ TEST(PoseSession, ReleaseIsNoWorseThanAPoseFromRestWhateverWasBefore) {
   PoseSession fresh(bar(), scene_with(held_and_led));
   fresh.lead(1, path_of({1, 0, -0.5}, 40));
   EXPECT_EQ(released.status, Status::ok);
-  EXPECT_LE(energy_of(released), energy_of(fresh.release()) * (1 + 1e-9));
+  EXPECT_LE(released.total_energy(), fresh.release().total_energy() * (1 + 1e-9));
+}
+
+TEST(PoseSession, HardHandlesAreMetWhereverTheDragBegan) {
+  PoseSession session(bar(), scene_with("  hard_handles: true\n  handles:\n    - fix: z<10%\n    - "
+                                        "{move: z>90%}\n"));
+  session.lead(1, {});  // stays
+  session.drag();
+  const HandlePath path = path_of({0.2, 0, 0.1}, 20);
+  session.lead(1, path);
+  session.drag();
+  FloatPoints positions;
+  session.deform(positions);
+  const Mesh rest = bar();
+  double miss = 0;
+  for (Index i = 0; i < rest.positions.rows(); ++i)
+    if (const Vec3 x = rest.positions.row(i).transpose(); x.z() > 3.6 + 1e-9)
+      miss = std::max(miss, (positions.row(i).cast<double>().transpose() - path(x, 1)).norm());
+  EXPECT_LT(miss / diagonal(), 1e-6);
+}
+
+TEST(PoseSession, AReleaseKeepsWhatTheSceneForbids) {
+  const std::string handles =
+      "  no_inversion: true\n  handles:\n    - fix: z<10%\n    - {move: z>90%, by: [0, 0, -30%]}\n";
+  const PoseResult at_once = pose(bar(), scene_with(handles));
+  PoseSession session(bar(), scene_with(handles));
+  for (int step = 1; step <= 10; ++step) {
+    HandlePath path = path_of(0.03 * step * diagonal() * Vec3(0, 0, -1), 0);
+    session.lead(1, path);
+    session.drag();
+  }
+  const Report report = session.release();
+  ASSERT_GT(at_once.min_det_F, 0);
+  EXPECT_TRUE(report.usable());
+  EXPECT_EQ(report.find(ReasonCode::inverted), nullptr);
 }
 
 TEST(PoseSession, LedByAStiffMotionItsSurfaceIsMovedSo) {

@@ -344,6 +344,42 @@ TEST(Pose, ABarrierStandsWhereVerticesBetweenWouldTurn) {
   EXPECT_TRUE(with.report.usable());
 }
 
+TEST(Pose, HardHandlesGoInShorterStepsWhereABarrierBlocksTheWay) {
+  const PoseResult result =
+      pose(make_quad_bar({1, 5, 1}, {4, 20, 4}),
+           scene_with("  hard_handles: true\n  no_inversion: true\n  handles:\n    - fix: y<10%\n"
+                      "    - {move: y>90%, by: [60%, -20%, 0]}\n"));
+  EXPECT_EQ(result.report.status, Status::ok);
+  EXPECT_GT(result.min_det_F, 0);
+  EXPECT_LT(result.handle_max_error, 1e-9);
+}
+
+TEST(Pose, ABarrierGoesUpBehindTheRepairOfWhereThePoseStarts) {
+  const Mesh bar = make_quad_bar({1, 5, 1}, {4, 20, 4});
+  Points folded = bar.positions;  // back on itself in the middle
+  for (Index i = 0; i < folded.rows(); ++i) {
+    const double y = folded(i, 1);
+    folded(i, 1) = y < 2 ? y : y < 3 ? 4 - y : y - 2;
+  }
+  const PoseResult result =
+      pose(bar,
+           scene_with("  no_inversion: true\n  from: folded.obj\n  handles:\n    - fix: y<10%\n"
+                      "    - {move: y>90%, by: [0, 2, 0]}\n"),
+           {}, {folded, {}});
+  EXPECT_TRUE(result.report.usable());
+  EXPECT_GT(result.min_det_F, 0.5);
+}
+
+TEST(Pose, HandlesFarAwayAreWalkedToInSoManyStepsAtMost) {
+  const PoseResult result =
+      pose(make_box({1, 1, 1}),
+           scene_with("  handles:\n    - fix: y<10%\n    - {move: y>90%, by: [1e12, 0, 0]}\n"
+                      "  most_seconds: 0.1\n"));
+  EXPECT_EQ(result.report.status, Status::degraded);
+  EXPECT_NE(result.report.find(ReasonCode::out_of_time), nullptr);
+  EXPECT_TRUE(result.mesh.positions.allFinite());
+}
+
 TEST(Pose, WhatNoInversionCannotKeepFails) {
   const Mesh bar = make_quad_bar({1, 5, 1}, {8, 40, 8});
   Scene scene = scene_with(sharp_bend("  no_inversion: true\n"));

@@ -150,6 +150,24 @@ TEST(HardConstraints, AreMetExactlyByBothMinimisers) {
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-3);
 }
 
+TEST(HardConstraints, WhatIsTiedIsForTheTargetsToSay) {
+  const Bar bar(0.125, {0.1, 0.05, 0.02}, 30);
+  const Preconditioner preconditioner(bar.energy());
+  HardConstraints constraints(bar.handles(), bar.handle_weights(), bar.handles().points,
+                              preconditioner);
+  const Index tied = constraints.tied();
+  EXPECT_EQ(constraints.left_free(), 0);  // at rest: rounding contradicts nothing
+  Points contradicting = bar.targets();
+  contradicting(0, 0) += 0.3;
+  constraints.decide(contradicting);
+  EXPECT_GT(constraints.left_free(), 0);
+  constraints.decide(bar.targets());
+  EXPECT_EQ(constraints.tied(), tied);
+  Points u = Points::Zero(bar.energy().particles(), 3);
+  constraints.meet(bar.targets(), u);
+  EXPECT_LT(bar.miss(u), 1e-12);
+}
+
 TEST(HardConstraints, TargetsThatContradictEachOtherAreMetInTheMean) {
   const Bar bar(0.125, Vec3::Zero(), 0);
   const Preconditioner preconditioner(bar.energy());
