@@ -1,13 +1,10 @@
-# Options that every target of the project shares.
+# Options that every target of the project shares, and none that uses it from outside.
 add_library(supple_options INTERFACE)
 target_compile_options(supple_options INTERFACE -Wall -Wextra -Werror -ffp-contract=off)
 # g++ 12 sees overruns in std::string that are not there (GCC bug 105651); clang keeps looking.
 target_compile_options(supple_options INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread>)
 target_include_directories(supple_options INTERFACE ${PROJECT_SOURCE_DIR})
-
-# Fixed alignment, so that Eigen values can cross between code built for different processors.
-target_compile_definitions(supple_options INTERFACE EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MAX_STATIC_ALIGN_BYTES=32)
 
 if(SUPPLE_SANITIZE)
   target_compile_options(supple_options INTERFACE
