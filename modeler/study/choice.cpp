@@ -13,7 +13,6 @@ constexpr double safety_of_order = 1.25, safety_of_doubt = 3;
 constexpr double solver_share = 0.1;     // of the error of the particles
 constexpr double share_of_time = 0.8;    // that a run may take, since times vary
 constexpr double most_over_finest = 16;  // particles, over the most that were studied
-constexpr double least_order = 0.5, greatest_order = 4.5;
 
 /// A knob and its error as a power of its value.
 struct ErrorLaw {

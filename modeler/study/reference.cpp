@@ -8,7 +8,6 @@ namespace supple {
 namespace {
 
 constexpr double expected_order = 2;
-constexpr double least_order = 0.5, greatest_order = 4.5;  // that are believed
 constexpr double factor_of_three_levels = 1.25, factor_of_doubt = 3;
 
 double spacing(const GridLevel& level) {

@@ -17,6 +17,9 @@ struct GridLevel {
   double unknowns;
 };
 
+/// Orders of convergence that are believed.
+inline constexpr double least_order = 0.5, greatest_order = 4.5;
+
 /// What stands for the exact result, and how far the exact one may be from it.
 struct Reference {
   Points positions;

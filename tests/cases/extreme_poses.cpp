@@ -328,8 +328,9 @@ void measure_wild_drag(Figures& figures) {
     return greatest_distance(places.cast<double>(), cold) / diagonal_of(bar);
   };
   figures["off_cold_before_release"] = off_cold();
-  session.release();
+  const Report report = session.release();
   figures["off_cold"] = off_cold();
+  figures["not_ok"] = report.status != Status::ok;
 }
 
 constexpr Case cases[] = {{"C4", measure_whole_turns},   {"C5", measure_one_point},

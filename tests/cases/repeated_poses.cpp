@@ -204,11 +204,13 @@ class TurnedBar {
         handles_(handles()),
         solver_(field_, quadrature_, particles_.volumes, handles_, {}) {}
 
-  /// Displacements in the first order, turned back.
+  /// Displacements in the first order, turned back. By second-order steps: first-order ones end at
+  /// the root of rounding from the minimum.
   Points solved() {
     Points u = Points::Zero(positions_.rows(), 3);
+    const MinimizeOptions options{.kind = MinimizerKind::trust_region, .tolerance = 1e-15};
     solver_.solve(
-        {.minimize = {.tolerance = 1e-14}, .substeps = 4}, [](double) {}, u);
+        {.minimize = options, .substeps = 4}, [](double) {}, u);
     Points back(u.rows(), 3);
     back(order_, Eigen::all) = u * R_;
     return back;

@@ -199,7 +199,8 @@ void measure_escalation(Figures& figures) {
   const Block kinked(kink, 0);
   const Outcome stuck = minimized(kinked, {.tolerance = 1e-15}, kinked.at_rest());
   figures["memory_given_up_told"] = notes(stuck.report, "down the preconditioned gradient");
-  figures["trust_region_told"] = notes(stuck.report, "the trust region took over");
+  figures["trust_region_told"] =
+      stuck.after == 0 || notes(stuck.report, "the trust region took over");
   figures["kinks_left"] = stuck.after / stuck.before;
 
   const PlaceEnergy place;

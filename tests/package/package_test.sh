@@ -11,7 +11,8 @@ mv "$folder/first" "$folder/prefix"
 
 # The build's own libraries must not be what is found.
 "$folder/prefix/bin/supple" --version
-ldd "$folder/prefix/bin/supple" | grep -q "$folder/prefix/lib.*/supple/.*libsupple_solver.so"
+found=$(ldd "$folder/prefix/bin/supple")
+[[ $found == *"libsupple_solver.so => $folder/prefix/"* ]]
 man --warnings -E UTF-8 -l "$folder/prefix/share/man/man1/supple.1" >/dev/null 2>"$folder/man.txt"
 [[ ! -s $folder/man.txt ]]
 
