@@ -52,7 +52,9 @@ std::vector<int> block_order(const MovingLeastSquares<3>& field, const Points& p
 }  // namespace
 
 BlockedField::BlockedField(const MovingLeastSquares<3>& field, const Points& points)
-    : size_(points.rows()), order_(block_order(field, points)) {
+    : size_(points.rows()),
+      order_(block_order(field, points)),
+      own_order_(std::is_sorted(order_.begin(), order_.end())) {
   const Index block_count = (size_ + lanes - 1) / lanes;
   order_.resize(static_cast<std::size_t>(block_count * lanes), -1);
   rest_.resize(order_.size(), Vec3::Zero());
@@ -226,6 +228,16 @@ void BlockedField::displace(const RigidMotion& rigid, const ParticleValues<3>& d
         for (int a = 0; a < 3; ++a)
           Eigen::Map<Lanes>(&sums[std::size_t(a) * lanes]) +=
               R(a, 0) * x + R(a, 1) * y + R(a, 2) * z + t[a];
+        if (own_order_ && static_cast<Index>((block + 1) * lanes) <= size_) {
+          // In one stream, without asking where each lane goes.
+          float* to = out.data() + 3 * block * lanes;
+          for (std::size_t lane = 0; lane < lanes; ++lane, to += 3) {
+            to[0] = sums[lane];
+            to[1] = sums[lanes + lane];
+            to[2] = sums[2 * lanes + lane];
+          }
+          return;
+        }
         for (std::size_t lane = 0; lane < lanes; ++lane) {
           const int point = order_[block * lanes + lane];
           if (point >= 0) out.row(point) << sums[lane], sums[lanes + lane], sums[2 * lanes + lane];

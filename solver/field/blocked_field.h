@@ -86,6 +86,7 @@ class SUPPLE_API BlockedField {
 
   Index size_ = 0;
   std::vector<int> order_;            ///< the point in each lane of each block; −1 pads
+  bool own_order_ = false;            ///< lanes hold points in the points' own order
   std::vector<Vec3> rest_;            ///< the lanes' points at rest
   std::vector<float> rest_lanes_;     ///< the same, [block][axis][lane]
   std::vector<int> block_starts_{0};  ///< blocks+1 offsets into particles_
