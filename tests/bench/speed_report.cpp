@@ -85,7 +85,7 @@ const Line lines[] = {
      [](const Measured& of) {
        return fmt::format("{:.0f}", of("drag/5000", "ms") / of("drag/200", "ms"));
      }},
-    {"hard handles over soft ones, 1000 particles; miss over the size; set-up [ms]", "≤ 10; 1e-9;",
+    {"hard handles over soft ones, 1000 particles; miss over the size; set-up [ms]", "≤ 10; 1e-9",
      [](const Measured& of) {
        return fmt::format("{:.1f}; {:.0e}; {:.0f}", of("hard_handles/1000", "over_soft"),
                           of("hard_handles/1000", "miss_over_size"),
