@@ -155,8 +155,7 @@ struct PoseSpec {
           {.doc = "plane: every handle acts mirrored on its other side too"});
     visit("solver", self.solver,
           {.doc = "minimiser; nlopt, an independent check, is for a hundred particles or so: the "
-                  "time of "
-                  "one of its iterations grows with their cube",
+                  "time of one of its iterations grows with their cube",
            .sweep = {.kind = Sweep::Kind::names}});
     visit("hard_handles", self.hard_handles,
           {.doc = "true: handles are met exactly, as far as the particles can and they do not "

@@ -33,9 +33,13 @@ Report InversionGuard::solve(PoseSolveOptions options,
     if (deadline.over()) {
       u = start;
       report.energies.clear();
-      report.notes.push_back(
-          "no time was left to keep vertices from turning inside out: the pose is where its way "
-          "starts");
+      const Reason late{ReasonCode::out_of_time, 1, 0,
+                        "no time was left to keep vertices from turning inside out: the pose is "
+                        "where its way starts"};
+      if (Reason* told = report.find(late.code))
+        *told = late;
+      else
+        report.degrade(late);
       return report;
     }
     guard(more);

@@ -260,7 +260,7 @@ void compare(const std::vector<Model>& models, const fs::path& folder) {
                       percent(mine.volume_change), percent(peer.volume_change),
                       100 * mine.edge_change, 100 * peer.edge_change, mine.seconds, peer.seconds);
     } catch (const ShapeError& error) {
-      table += fmt::format("| {}: {} | {} | refused: {} | | |\n", model.name, model.label,
+      table += fmt::format("| {}, {} | {} | refused: {} | | |\n", model.name, model.label,
                            model.mesh.positions.rows(), error.what());
     }
   }
