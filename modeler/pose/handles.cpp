@@ -227,7 +227,8 @@ int substeps_needed(const HandleSamples& handles, Index particles) {
   const double finer = std::cbrt(std::max(1.0, double(particles) / particles_at_most_turn));
   const double steps =
       std::ceil(std::max(turn / most_turn_per_step, bend / most_bend_per_step) * finer - 1e-9);
-  return static_cast<int>(std::clamp<double>(steps, 1, PoseSpec::most_substeps));
+  // One where it is no number.
+  return steps > 1 ? static_cast<int>(std::min<double>(steps, PoseSpec::most_substeps)) : 1;
 }
 
 }  // namespace supple

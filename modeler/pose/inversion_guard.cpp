@@ -32,7 +32,7 @@ Report InversionGuard::solve(PoseSolveOptions options,
     if (more.empty() || way == most_ways) return report;
     if (deadline.over()) {
       u = start;
-      report.energies.clear();
+      report.energies = solver_.energies_at_end(u);
       const Reason late{ReasonCode::out_of_time, 1, 0,
                         "no time was left to keep vertices from turning inside out: the pose is "
                         "where its way starts"};

@@ -144,8 +144,7 @@ void PoseSolver::end_early(double share, const Report& step, const Points& unfin
       count_inversions(quadrature_, u).inverted)
     u = unfinished;
   merge(step, way);
-  handle_energy_.set_targets(handles_.targets(1));
-  way.energies = energy_.values(u);
+  way.energies = energies_at_end(u);
   Reason& reason = *way.find(ReasonCode::out_of_time);
   reason.value = share;
   reason.detail = fmt::format(
@@ -163,6 +162,11 @@ void PoseSolver::judge_reach(Report& report) const {
 
 bool PoseSolver::heavy() const {
   return weights_.volume >= heavy_volume * weights_.rigidity;
+}
+
+std::vector<std::pair<std::string, double>> PoseSolver::energies_at_end(const Points& u) {
+  handle_energy_.set_targets(handles_.targets(1));
+  return energy_.values(u);
 }
 
 PoseSolver::Way PoseSolver::way_of(const PoseSolveOptions& options) const {
@@ -197,9 +201,10 @@ Lbfgs::Result PoseSolver::drag(const PoseSolveOptions& options, PaddedPoints& u)
   handle_energy_.set_targets(targets_);
   if (!options.hard_handles)
     return lbfgs_.minimize(energy_, *preconditioner_, options.minimize, nullptr, u);
-  if (!constraints_)
+  if (constraints_)
+    constraints_->decide(targets_);
+  else
     constraints_.emplace(handle_samples_, handles_.weights(), targets_, *preconditioner_);
-  constraints_->decide(targets_);
   Points met = u.leftCols<3>();
   constraints_->meet(targets_, met);
   u.leftCols<3>() = met;

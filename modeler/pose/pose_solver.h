@@ -63,6 +63,9 @@ class PoseSolver {
   /// handles only the first one allocates.
   Lbfgs::Result drag(const PoseSolveOptions& options, PaddedPoints& u);
 
+  /// Each energy of `u` by its name, with the handles where they shall be at last.
+  std::vector<std::pair<std::string, double>> energies_at_end(const Points& u);
+
   const Samples& handle_samples() const { return handle_samples_; }
 
   /// Particles in pieces of the shape without any handle: nothing moves them.
