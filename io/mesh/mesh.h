@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct Attribute {
   bool empty() const { return values.rows() == 0; }
   bool per_corner() const { return !corners.empty(); }
 };
+
+struct GltfMaterials;
 
 /// A run of faces that starts at `first_face`: what OBJ's o, g, s and usemtl lines say.
 struct FaceTag {
@@ -41,6 +44,8 @@ struct Mesh {
   Eigen::VectorXd radii;      ///< of a point cloud's points [file units]; n, or empty
   std::vector<FaceTag> tags;  ///< ordered by first_face
   std::vector<std::string> material_libraries;
+  /// What the material tags name, of a glTF file and for another one; else null.
+  std::shared_ptr<const GltfMaterials> gltf_materials;
   std::vector<std::string> notes;  ///< what the reader left out or mended, a sentence each
 
   int face_count() const { return static_cast<int>(face_starts.size()) - 1; }

@@ -1,9 +1,11 @@
 #include "io/mesh/mesh_files.h"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
+#include "io/gltf/gltf_formats.h"
 #include "io/mesh/mesh_checks.h"
 #include "io/mesh/mesh_formats.h"
 #include "io/mesh/number_types.h"
@@ -25,7 +27,12 @@ enum Holds : unsigned {
   holds_fine_colors = 256,
   holds_alpha = 512,
   holds_radii = 1024,
+  holds_objects = 2048,    ///< objects and materials, of all the tags
+  holds_materials = 4096,  ///< what the materials of glTF are, not their names alone
+  doubles_corners = 8192,  ///< holds values per corner at the price of more vertices
   holds_vertex_values = holds_normals | holds_texcoords | holds_colors | holds_fine_colors,
+  gltf_holds = holds_faces | holds_vertex_values | holds_alpha | holds_objects | holds_materials |
+               doubles_corners,
 };
 
 struct MeshFormat {
@@ -35,7 +42,7 @@ struct MeshFormat {
   unsigned holds;
 };
 
-constexpr std::array<MeshFormat, 7> known_formats = {{
+constexpr std::array<MeshFormat, 9> known_formats = {{
     {"obj", read_obj, write_obj,
      holds_faces | holds_polygons | holds_tags | holds_corner_normals | holds_corner_texcoords |
          holds_vertex_values},
@@ -44,6 +51,8 @@ constexpr std::array<MeshFormat, 7> known_formats = {{
      holds_faces | holds_polygons | holds_corner_texcoords | holds_vertex_values | holds_alpha |
          holds_radii},
     {"stl", read_stl, write_stl, holds_faces},
+    {"glb", read_gltf, write_glb, gltf_holds},
+    {"gltf", read_gltf, write_gltf, gltf_holds},
     {"pcd", read_pcd, write_pcd, holds_normals | holds_colors | holds_alpha | holds_radii},
     {"pwn", read_pwn, write_pwn, holds_normals},
     {"xyz", read_xyz, write_xyz, holds_normals | holds_colors | holds_fine_colors},
@@ -58,10 +67,12 @@ const MeshFormat* format_of(const std::filesystem::path& path) {
 
 /// By the first word; nullptr where it is none that a mesh file begins with.
 const MeshFormat* recognize(const FileBytes& file) {
+  const auto format = [](std::string_view name) { return format_of(fmt::format("x.{}", name)); };
+  if (file.bytes.starts_with("glTF")) return format("glb");
   TextScanner scanner(file, {.comment = '#'});
   if (!scanner.next_line()) return nullptr;
   const std::string_view word = scanner.word();
-  const auto format = [](std::string_view name) { return format_of(fmt::format("x.{}", name)); };
+  if (word.starts_with('{')) return format("gltf");
   if (word == "ply") return format("ply");
   if (word == "VERSION" || word == "FIELDS") return format("pcd");
   if (word.ends_with("OFF")) return format("off");
@@ -75,6 +86,12 @@ const MeshFormat& writable_format(const std::filesystem::path& path) {
   if (const MeshFormat* format = format_of(path)) return *format;
   throw OutputError(fmt::format("{}: cannot write: \"{}\" is none of the mesh formats {}",
                                 path.string(), path.extension().string(), mesh_formats()));
+}
+
+bool has_tags(const Mesh& mesh, std::initializer_list<FaceTag::Kind> kinds) {
+  return std::any_of(mesh.tags.begin(), mesh.tags.end(), [&](const FaceTag& tag) {
+    return std::find(kinds.begin(), kinds.end(), tag.kind) != kinds.end();
+  });
 }
 
 }  // namespace
@@ -115,12 +132,25 @@ std::vector<std::string> left_out_by(const std::filesystem::path& path, const Me
     add(holds_faces, mesh.face_count() > 0, "faces: only the vertices are written");
   } else {
     add(holds_polygons, polygons, "polygons: written in triangles");
-    add(holds_polygons, true, "shared vertices: written thrice for every triangle");
+    add(holds_polygons | doubles_corners, true,
+        "shared vertices: written thrice for every triangle");
   }
-  add(holds_tags, !mesh.tags.empty() || !mesh.material_libraries.empty(), "groups and materials");
-  add(mesh.normals.per_corner() ? holds_corner_normals : holds_normals, !mesh.normals.empty(),
-      mesh.normals.per_corner() ? "normals per corner" : "normals");
-  add(mesh.texcoords.per_corner() ? holds_corner_texcoords : holds_texcoords,
+  const bool names = has_tags(mesh, {FaceTag::Kind::object, FaceTag::Kind::material});
+  const bool groups = has_tags(mesh, {FaceTag::Kind::group, FaceTag::Kind::smoothing});
+  add(holds_tags | holds_objects, names, "the names of objects and materials");
+  add(holds_tags, groups, "groups");
+  add(holds_tags, !mesh.material_libraries.empty(), "material libraries");
+  add(holds_materials, mesh.gltf_materials != nullptr, "the materials of glTF and their images");
+  const bool doubles = (format.holds & doubles_corners) != 0 &&
+                       (mesh.normals.per_corner() || mesh.texcoords.per_corner());
+  if (doubles)
+    sentences.push_back(fmt::format(
+        "{} holds normals and texture coordinates by vertices: those that have several are "
+        "written several times",
+        format.name));
+  add(mesh.normals.per_corner() ? holds_corner_normals | doubles_corners : holds_normals,
+      !mesh.normals.empty(), mesh.normals.per_corner() ? "normals per corner" : "normals");
+  add(mesh.texcoords.per_corner() ? holds_corner_texcoords | doubles_corners : holds_texcoords,
       !mesh.texcoords.empty(),
       mesh.texcoords.per_corner() ? "texture coordinates per corner" : "texture coordinates");
   add(holds_colors, !mesh.colors.empty(), "colors");

@@ -177,6 +177,7 @@ Mesh points_of(Mesh mesh) {
   mesh.face_vertices.clear();
   mesh.tags.clear();
   mesh.material_libraries.clear();
+  mesh.gltf_materials.reset();
   if (mesh.normals.per_corner()) mesh.normals = {};
   if (mesh.texcoords.per_corner()) mesh.texcoords = {};
   return mesh;
