@@ -8,7 +8,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build ccache
   libeigen3-dev libceres-dev libnlopt-dev libopenblas0-pthread libtbb-dev libnanoflann-dev
-  libosmesa6-dev libpng-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev)
+  libosmesa6-dev libpng-dev libassimp-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev libfmt-dev)
 test_packages=(libgtest-dev clang libclang-rt-dev clang-format valgrind man-db)
 bench_packages=(libgtest-dev libbenchmark-dev libcgal-dev)
 

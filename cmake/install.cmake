@@ -8,6 +8,7 @@ set_target_properties(supple_solver PROPERTIES EXPORT_NAME solver)
 set_target_properties(supple_io PROPERTIES EXPORT_NAME io)
 set_target_properties(supple_modeler PROPERTIES EXPORT_NAME modeler)
 install(TARGETS supple DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS supple_import DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/supple)
 install(TARGETS supple_solver supple_io supple_modeler EXPORT supple
   LIBRARY DESTINATION ${library_folder} ARCHIVE DESTINATION ${library_folder})
 if(SUPPLE_FAST_CPU)

@@ -18,6 +18,12 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The importer of foreign formats crashed, hung or asked for too much memory (exit code 4).
+class ImporterError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// An output cannot be written (exit code 3).
 class OutputError : public std::runtime_error {
  public:

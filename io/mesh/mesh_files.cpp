@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "io/gltf/gltf_formats.h"
+#include "io/import/import_mesh.h"
 #include "io/mesh/mesh_checks.h"
 #include "io/mesh/mesh_formats.h"
 #include "io/mesh/number_types.h"
@@ -100,11 +101,7 @@ Mesh read_mesh(const std::filesystem::path& path) {
   const FileBytes file = read_file_bytes(path);
   const MeshFormat* format = format_of(path);
   if (!format) format = recognize(file);
-  if (!format)
-    throw InputError(
-        fmt::format("{}: cannot read: neither its name nor its first word is of a "
-                    "mesh format ({})",
-                    file.name, mesh_formats()));
+  if (!format) return import_mesh(file);
   return format->read(file);
 }
 

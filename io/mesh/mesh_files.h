@@ -8,14 +8,15 @@
 
 namespace supple {
 
-/// Reads OBJ, PLY (ASCII, both binaries), OFF, STL, or a point cloud in PLY, PCD, PWN or XYZ by
-/// our own readers, chosen by the file's extension, or by its first bytes where the extension
-/// says nothing.
+/// Reads OBJ, PLY (ASCII, both binaries), OFF, STL, glTF 2, or a point cloud in PLY, PCD, PWN or
+/// XYZ by our own readers, chosen by the file's extension, or by its first bytes where the
+/// extension says nothing; any other format by import_mesh.
 /// Errors: InputError with the file and line (or byte) where it is empty, cut short, has a
-/// number that is not finite, an index out of range, or a count that its size cannot hold.
+/// number that is not finite, an index out of range, or a count that its size cannot hold;
+/// ImporterError.
 Mesh read_mesh(const std::filesystem::path& path);
 
-/// Mesh formats by name, for messages: "obj, off, ply, stl, pcd, pwn, xyz".
+/// Our own formats by name, for messages: "obj, off, ply, ...".
 std::string mesh_formats();
 
 /// True where `path` has an extension that write_mesh knows.

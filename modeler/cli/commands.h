@@ -6,7 +6,7 @@
 namespace supple {
 
 /// How a program ends; 128 + n where signal n stopped it.
-enum ExitCode { exit_done = 0, exit_failed = 1, exit_usage = 2, exit_file = 3 };
+enum ExitCode { exit_done = 0, exit_failed = 1, exit_usage = 2, exit_file = 3, exit_importer = 4 };
 
 using Words = std::span<const std::string>;
 

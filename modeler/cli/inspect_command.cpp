@@ -41,7 +41,8 @@ struct InspectArguments {
 
   bool parse(Words words) {
     CommandLine line("supple inspect", description);
-    line.positional("FILE", fmt::format("a mesh or a point cloud ({})", mesh_formats()),
+    line.positional("FILE",
+                    fmt::format("a mesh or a point cloud ({}; others by assimp)", mesh_formats()),
                     [this](const std::string& value) { file = value; });
     line.option("--select", {"SELECTION", "say what this part of the surface is, and mark it"},
                 [this](const std::string& value) { selection = value; });

@@ -105,6 +105,9 @@ int run_and_map_errors(const std::vector<std::string>& words) {
     return report_error(error.what(), exit_usage);
   } catch (const InputError& error) {
     return report_error(error.what(), exit_file);
+  } catch (const ImporterError& error) {
+    if (InterruptWatch::signal() != 0) return 128 + InterruptWatch::signal();
+    return report_error(error.what(), exit_importer);
   } catch (const OutputError& error) {
     return report_error(error.what(), exit_file);
   } catch (const ShapeError& error) {

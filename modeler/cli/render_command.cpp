@@ -27,7 +27,8 @@ int run_render(Words words) {
   PictureArguments view;
   RunArguments run;
   CommandLine line("supple render", "Draws a mesh into a picture.");
-  line.positional("FILE", fmt::format("a mesh or a point cloud ({})", mesh_formats()),
+  line.positional("FILE",
+                  fmt::format("a mesh or a point cloud ({}; others by assimp)", mesh_formats()),
                   [&](const std::string& value) { file = value; });
   line.begin_group("Output");
   line.option("-o,--output", {"FILE.png", "the picture; needed"},

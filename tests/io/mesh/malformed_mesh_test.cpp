@@ -170,8 +170,8 @@ std::vector<Malformed> other_cases() {
       {"a.stl", facet + "endloop\n",
        ":4: triangle 0: \"vertex\" is expected here, not \"endloop\""},
       {"a.stl", "solid\nface\n", ":2: triangle 0: \"facet\" or \"endsolid\" is expected here"},
-      {"a.pts", "1 2 3\n", "cannot read: neither its name nor its first word"},
-      {"a", "\n", "cannot read: neither its name nor its first word"},
+      {"a.pts", "1 2 3\n", "cannot read: it is of none of our formats"},
+      {"a", "\n", "cannot read: it is of none of our formats"},
   };
 }
 
