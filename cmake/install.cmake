@@ -11,8 +11,9 @@ install(TARGETS supple DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS supple_import DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/supple)
 install(TARGETS supple_solver supple_io supple_modeler EXPORT supple
   LIBRARY DESTINATION ${library_folder} ARCHIVE DESTINATION ${library_folder})
+install(TARGETS supple_minimizers DESTINATION ${library_folder})
 if(SUPPLE_FAST_CPU)
-  install(TARGETS supple_solver_v3 DESTINATION ${library_folder}/glibc-hwcaps/x86-64-v3)
+  install(TARGETS supple_solver_v3 supple_minimizers_v3 DESTINATION ${library_folder}/glibc-hwcaps/x86-64-v3)
 endif()
 foreach(folder solver io modeler)
   install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/supple

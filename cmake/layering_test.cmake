@@ -8,7 +8,7 @@ set(rules
   "^solver/field/" "-" "^solver/(energy|minimize|${back_ends})/"
   "^solver/energy/" "-" "^solver/(minimize|${back_ends})/"
   "^solver/minimize/" "-" "^solver/(${back_ends})/"
-  "^" "^solver/minimize/" "^(ceres/|nlopt)"
+  "^" "^solver/minimize/loaded/" "^(ceres/|nlopt)"
   "^" "^modeler/cli/command_line\\.cpp" "^CLI/"
   "^io/" "-" "^(modeler|importer|CGAL|assimp)/"
   "^importer/" "-" "^modeler/"

@@ -16,6 +16,7 @@
 #include "modeler/pose/pose.h"
 #include "solver/core/arithmetic.h"
 #include "solver/core/check.h"
+#include "solver/core/installation_error.h"
 
 namespace supple {
 namespace {
@@ -109,6 +110,8 @@ int run_and_map_errors(const std::vector<std::string>& words) {
     if (InterruptWatch::signal() != 0) return 128 + InterruptWatch::signal();
     return report_error(error.what(), exit_importer);
   } catch (const OutputError& error) {
+    return report_error(error.what(), exit_file);
+  } catch (const InstallationError& error) {
     return report_error(error.what(), exit_file);
   } catch (const ShapeError& error) {
     return report_error(error.what(), exit_failed);

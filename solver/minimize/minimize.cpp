@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "solver/core/check.h"
+#include "solver/minimize/loaded/minimizers.h"
 
 namespace supple {
 namespace {
@@ -26,7 +27,7 @@ Report run_lbfgs(const EnergySum& energy, const Preconditioner& preconditioner,
       Lbfgs().minimize(energy, preconditioner, options, constraints, unknowns);
   u = unknowns.leftCols<3>();
   if (result.stop == Lbfgs::Stop::stuck && !constraints) {
-    Report report = minimize_trust_region(energy, within(deadline, options), u);
+    Report report = minimizers().trust_region(energy, within(deadline, options), u);
     report.iterations += result.iterations;
     note_restarts(result.restarts, report);
     report.notes.push_back("the line search gave up; the trust region took over");
@@ -43,9 +44,9 @@ Report run(const EnergySum& energy, const Preconditioner& preconditioner,
       return run_lbfgs(energy, preconditioner, options, constraints, u);
     case MinimizerKind::trust_region:
       SUPPLE_CHECK(!constraints, "the trust region takes no constraints");
-      return minimize_trust_region(energy, options, u);
+      return minimizers().trust_region(energy, options, u);
     case MinimizerKind::nlopt:
-      return minimize_nlopt(energy, preconditioner, options, constraints, u);
+      return minimizers().nlopt(energy, preconditioner, options, constraints, u);
   }
   fail_check("the minimiser is known", __FILE__, __LINE__, std::string(enum_name(options.kind)));
 }

@@ -16,6 +16,8 @@ namespace supple {
 ///
 /// The preconditioner may be older than the handles' targets, never than the handles themselves.
 /// With `constraints`, which `u` meets, it goes on meeting them; the trust region takes none.
+///
+/// All methods but L-BFGS are loaded on first use; throws InstallationError where that fails.
 SUPPLE_API Report minimize(const EnergySum& energy, const Preconditioner& preconditioner,
                            const MinimizeOptions& options, Points& u,
                            const HardConstraints* constraints = nullptr);
@@ -23,20 +25,13 @@ SUPPLE_API Report minimize(const EnergySum& energy, const Preconditioner& precon
 /// The options with no more time than is left.
 SUPPLE_API MinimizeOptions within(const Deadline& deadline, MinimizeOptions options);
 
-/// The other methods of minimize(): Ceres' Levenberg–Marquardt with analytic Jacobians, a residual
-/// block a sample, sparse normal Cholesky; NLopt's SLSQP, for a hundred particles or so.
-Report minimize_nlopt(const EnergySum& energy, const Preconditioner& preconditioner,
-                      const MinimizeOptions& options, const HardConstraints* constraints,
-                      Points& u);
-Report minimize_trust_region(const EnergySum& energy, const MinimizeOptions& options, Points& u);
-
 /// What an L-BFGS solve came to, in words.
 SUPPLE_API Report report_of(const Lbfgs::Result& result);
 
 /// Degrades for the time, which was over after the report's iterations, counted in `steps`.
-void degrade_out_of_time(std::string_view steps, Report& report);
+SUPPLE_API void degrade_out_of_time(std::string_view steps, Report& report);
 
 /// Degrades where a minimiser met an energy that was not finite, and says how often.
-void degrade_not_finite(int count, int evaluations, Report& report);
+SUPPLE_API void degrade_not_finite(int count, int evaluations, Report& report);
 
 }  // namespace supple

@@ -1,5 +1,6 @@
-// Poses a tetrahedron by its tip, and says what came of it.
+// Poses a tetrahedron by its tip, by two minimisers, and says what came of it.
 #include <cstdio>
+#include <string>
 
 #include "io/scene/scene_reader.h"
 #include "modeler/pose/pose.h"
@@ -10,11 +11,16 @@ int main() {
   mesh.positions << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
   mesh.face_vertices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
   mesh.face_starts = {0, 3, 6, 9, 12};
-  const supple::Scene scene = supple::read_scene_text(
-      "shape: {mesh: tetrahedron.obj}\n"
-      "pose: {handles: [{fix: z<10%}, {move: z>90%, by: [10%, 0, 0]}]}\n",
-      "scene.yaml", "");
-  const supple::PoseResult result = supple::pose(mesh, scene);
-  std::printf("moved by %.3f\n", (result.mesh.positions - mesh.positions).row(3).norm());
-  return result.report.usable() ? 0 : 1;
+  // The trust region is in a library that is loaded when it is asked for.
+  for (const std::string solver : {"lbfgs", "trust_region"}) {
+    const supple::Scene scene = supple::read_scene_text(
+        "shape: {mesh: tetrahedron.obj}\n"
+        "pose: {handles: [{fix: z<10%}, {move: z>90%, by: [10%, 0, 0]}], solver: " +
+            solver + "}\n",
+        "scene.yaml", "");
+    const supple::PoseResult result = supple::pose(mesh, scene);
+    std::printf("%s: moved by %.3f\n", solver.c_str(),
+                (result.mesh.positions - mesh.positions).row(3).norm());
+    if (!result.report.usable()) return 1;
+  }
 }

@@ -8,7 +8,7 @@
 #include <ceres/solver.h>
 #include <fmt/format.h>
 
-#include "solver/minimize/minimize.h"
+#include "solver/minimize/loaded/minimizers.h"
 
 namespace supple {
 namespace {

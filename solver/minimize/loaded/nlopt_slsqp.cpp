@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <nlopt.h>
 
-#include "solver/minimize/minimize.h"
+#include "solver/minimize/loaded/minimizers.h"
 
 namespace supple {
 namespace {
