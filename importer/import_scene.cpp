@@ -78,7 +78,8 @@ class SceneReader {
       read_mesh(*scene_.mMeshes[node.mMeshes[i]], node, transform);
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i)
-      read_node(*node.mChildren[i], transform, depth + 1);
+      if (node.mChildren[i])  // some readers leave gaps
+        read_node(*node.mChildren[i], transform, depth + 1);
   }
 
   void read_mesh(const aiMesh& from, const aiNode& node, const aiMatrix4x4& transform) {

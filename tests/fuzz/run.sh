@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# Fuzzes our readers, each for so many seconds, all at once; ends with the first finding, which
+# stays in FOLDER.
+#   tests/fuzz/run.sh [SECONDS [FOLDER]]
+# The targets are those of the sanitizer build: cmake --preset asan; cmake --build --preset asan
+set -euo pipefail
+seconds=${1-60}
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+folder=${2-$root/build/asan/fuzz}
+
+mkdir -p "$folder"
+declare -A runs
+for target in meshes gltf scenes; do
+  mkdir -p "$folder/$target"
+  "$root/build/asan/tests/${target}_fuzz" -max_total_time="$seconds" -timeout=10 \
+    -rss_limit_mb=2048 -max_len=20000 -print_final_stats=1 -artifact_prefix="$folder/$target-" \
+    "$folder/$target" "$root/tests/fuzz/corpus/$target" &>"$folder/$target.log" &
+  runs[$target]=$!
+done
+
+failed=0
+for target in "${!runs[@]}"; do
+  if wait "${runs[$target]}"; then
+    echo "$target: $(sed -n 's/^stat::number_of_executed_units: //p' "$folder/$target.log") inputs, no finding"
+  else
+    failed=1
+    echo "$target: see $folder/$target.log"
+    tail -n 40 "$folder/$target.log"
+  fi
+done
+exit $failed
