@@ -29,6 +29,7 @@ std::span<const Case> pose_cases();              ///< C: poses
 std::span<const Case> extreme_pose_cases();      ///< C: whole turns, reflections, wild weights
 std::span<const Case> destroyed_start_cases();   ///< C: solves from states without a shape
 std::span<const Case> input_cases();             ///< K: inputs and outputs
+std::span<const Case> importer_cases();          ///< K: foreign formats
 std::span<const Case> solver_cases();            ///< L: what minimisers meet
 std::span<const Case> repeated_pose_cases();     ///< L: the same pose in other circumstances
 

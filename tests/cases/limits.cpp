@@ -203,6 +203,13 @@ constexpr Limit table[] = {
     {"K11", "found_by_check_writable", equal, 1, "share of these paths"},
     {"K11", "control_exit_code", equal, 143, "a good path: still solving when stopped after 1 s"},
     // L1, L2, L5, L6: lbfgs, trust_region and nlopt, each in turn; "told": by the report.
+    {"K19", "death_exit_4", equal, 1, "share of an importer's deaths that end with exit code 4"},
+    {"K19", "death_told", equal, 1, "share that are told by their cause"},
+    {"K19", "left_behind", equal, 0, "outputs that changed"},
+    {"K19", "wrong_answer_exit_3", equal, 1, "an answer that is not finite is refused as a file is"},
+    {"K19", "refusal_exit_3", equal, 1, "so is what the importer refuses"},
+    {"K19", "signal_while_it_hangs", equal, 143, "exit code of SIGTERM while the importer hangs"},
+    {"K19", "signal_seconds", at_most, 2, "until then"},
     {"L1", "start_failed", equal, 3, "solves that start at NaN: failed for it, u as it was"},
     {"L1", "later_told", equal, 3, "solves that meet NaN on their way: degraded for it, not ok"},
     {"L1", "later_lower", equal, 3, "of these: energy below the start's, all numbers finite"},
