@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 
@@ -20,25 +21,39 @@ using Eigen::Affine3d;
 enum Mode : std::size_t { points = 0, triangles = 4, strip = 5, fan = 6 };
 
 /// Nodes may show a mesh many times; a small file must not become more than this.
-constexpr std::size_t most_repeated = 30'000'000;
+constexpr std::size_t most_repeated = 10'000'000;
 
 /// Vertices that follow each other.
 struct Block {
   int first, count;
 };
 
-/// A value a vertex, for as many vertices as have one.
+/// Values of the vertices, of as many numbers as `fallback`, which stands where there is none.
+/// Nothing is kept as long as all are missing.
 struct Column {
-  std::vector<double> values;
+  std::vector<double> fallback, values{};
   Index missing = 0;
+
+  /// Before the first vertex that has a value, behind `before` others.
+  void begin(Index before) {
+    if (!values.empty()) return;
+    for (Index i = 0; i < before; ++i) append(fallback);
+  }
+  template <class Values>
+  void append(const Values& more) {
+    values.insert(values.end(), more.begin(), more.end());
+  }
+  void append_missing(Index count) {
+    missing += count;
+    for (Index i = 0; i < count && !values.empty(); ++i) append(fallback);
+  }
 };
 
 template <int Columns>
 void take_values(const Column& column, Attribute<Columns>& attribute) {
   using Values = Eigen::Matrix<double, Eigen::Dynamic, Columns, Eigen::RowMajor>;
   const Index rows = static_cast<Index>(column.values.size()) / Columns;
-  if (rows > column.missing)
-    attribute.values = Eigen::Map<const Values>(column.values.data(), rows, Columns);
+  attribute.values = Eigen::Map<const Values>(column.values.data(), rows, Columns);
 }
 
 /// Where each vertex of a primitive goes: one transform for all, or a mean of joints' for each.
@@ -100,6 +115,7 @@ class GltfReader {
     mesh_.notes = document_.notes;
     mesh_.gltf_materials = take_materials(document_, mesh_.notes);
     const std::vector<PlacedMesh> placed = placed_meshes(document_);
+    check_size(placed);
     for (const PlacedMesh& part : placed) read_faces(part);
     if (mesh_.face_count() == 0)
       for (const PlacedMesh& part : placed) read_points(part);
@@ -159,13 +175,11 @@ class GltfReader {
     const auto [first, count] = add_vertices(placed, primitive);
     std::vector<int> corners;
     if (primitive.has("indices")) {
-      corners =
-          read_indices(document_, primitive.index("indices", root_.size("accessors"), "accessors"),
-                       static_cast<std::size_t>(count));
+      corners = read_indices(document_, accessor_of(primitive, "indices"),
+                             static_cast<std::size_t>(count));
     } else {
       for (int i = 0; i < count; ++i) corners.push_back(i);
     }
-    reserve(mesh_.face_vertices.size() + 3 * corners.size());
     const bool mirrored = placed.joints.empty() && placed.transform.linear().determinant() < 0;
     const std::size_t step = mode == triangles ? 3 : 1;
     if (mode == triangles && corners.size() % 3 != 0)
@@ -200,50 +214,44 @@ class GltfReader {
     const AccessorValues positions =
         read_accessor(document_, accessor_of(attributes, "POSITION"), {3}, "position");
     const Index count = positions.rows();
-    reserve(static_cast<std::size_t>(vertex_count() + count));
     const Placement placement(document_, placed, attributes, count);
     const AccessorValues normals = values_of(attributes, "NORMAL", {3}, count);
+    const Index before = vertex_count();
+    if (normals.rows() > 0) normals_.begin(before);
     for (Index i = 0; i < count; ++i) {
       const Affine3d transform = placement.at(i);
       const Vec3 x = transform * Vec3(positions.row(i).transpose());
       if (!x.allFinite()) attributes.fail(fmt::format("position {} is not finite in its place", i));
       positions_.insert(positions_.end(), x.begin(), x.end());
-      if (normals.rows() > 0) append_normal(transform, normals.row(i).transpose());
+      if (normals.rows() > 0) normals_.append(turned(transform, normals.row(i).transpose()));
     }
-    if (normals.rows() == 0) append_missing(normals_, count, {0, 0, 0});
-    append_texcoords(values_of(attributes, "TEXCOORD_0", {2}, count), count);
-    append_colors(values_of(attributes, "COLOR_0", {3, 4}, count), count);
+    if (normals.rows() == 0) normals_.append_missing(count);
+    append_texcoords(values_of(attributes, "TEXCOORD_0", {2}, count), before, count);
+    append_colors(values_of(attributes, "COLOR_0", {3, 4}, count), before, count);
     return static_cast<int>(count);
   }
 
-  void append_normal(const Affine3d& transform, const Vec3& normal) {
+  static Vec3 turned(const Affine3d& transform, const Vec3& normal) {
     const Mat3 F = transform.linear();
     Mat3 cofactor;
     cofactor << F.col(1).cross(F.col(2)), F.col(2).cross(F.col(0)), F.col(0).cross(F.col(1));
     if (F.determinant() < 0) cofactor = -cofactor;
-    const Vec3 turned = (cofactor * normal).stableNormalized();
-    normals_.values.insert(normals_.values.end(), turned.begin(), turned.end());
+    return (cofactor * normal).stableNormalized();
   }
 
-  void append_texcoords(const AccessorValues& values, Index count) {
-    if (values.rows() == 0) return append_missing(texcoords_, count, {0, 0});
+  void append_texcoords(const AccessorValues& values, Index before, Index count) {
+    if (values.rows() == 0) return texcoords_.append_missing(count);
+    texcoords_.begin(before);
+    for (Index i = 0; i < count; ++i) texcoords_.append(std::array{values(i, 0), 1 - values(i, 1)});
+  }
+
+  void append_colors(const AccessorValues& values, Index before, Index count) {
+    if (values.rows() == 0) return colors_.append_missing(count);
+    colors_.begin(before);
     for (Index i = 0; i < count; ++i)
-      texcoords_.values.insert(texcoords_.values.end(), {values(i, 0), 1 - values(i, 1)});
-  }
-
-  void append_colors(const AccessorValues& values, Index count) {
-    if (values.rows() == 0) return append_missing(colors_, count, {1, 1, 1, 1});
-    for (Index i = 0; i < count; ++i) {
-      for (Index channel = 0; channel < 3; ++channel)
-        colors_.values.push_back(srgb_from_linear(values(i, channel)));
-      colors_.values.push_back(values.cols() == 4 ? std::clamp(values(i, 3), 0.0, 1.0) : 1.0);
-    }
-  }
-
-  static void append_missing(Column& column, Index count, std::initializer_list<double> value) {
-    for (Index i = 0; i < count; ++i)
-      column.values.insert(column.values.end(), value.begin(), value.end());
-    column.missing += count;
+      colors_.append(std::array{srgb_from_linear(values(i, 0)), srgb_from_linear(values(i, 1)),
+                                srgb_from_linear(values(i, 2)),
+                                values.cols() == 4 ? std::clamp(values(i, 3), 0.0, 1.0) : 1.0});
   }
 
   std::size_t accessor_of(const GltfObject& attributes, std::string_view name) const {
@@ -262,12 +270,36 @@ class GltfReader {
 
   int vertex_count() const { return static_cast<int>(positions_.size() / 3); }
 
-  void reserve(std::size_t count) const {
+  /// Before anything is read: vertices and corners, counted where nodes repeat them.
+  void check_size(const std::vector<PlacedMesh>& placed) const {
     const std::size_t most = std::min<std::size_t>(std::max(document_.size(), most_repeated),
-                                                   std::numeric_limits<int>::max());
-    if (count > most)
-      root_.fail(fmt::format(
-          "its nodes repeat meshes until there are more than {} vertices or corners", most));
+                                                   std::numeric_limits<int>::max() / 3);
+    std::vector<std::size_t> sizes;
+    for (std::size_t mesh = 0; mesh < root_.size("meshes"); ++mesh)
+      sizes.push_back(mesh_size(mesh));
+    std::size_t total = 0;
+    for (const PlacedMesh& part : placed) {
+      total += sizes[part.mesh];
+      if (total > most)
+        root_.fail(fmt::format(
+            "its nodes repeat meshes until there are more than {} vertices and corners", most));
+    }
+  }
+
+  std::size_t mesh_size(std::size_t index) const {
+    const GltfObject mesh = root_.item("meshes", index);
+    std::size_t size = 0;
+    const auto add = [&](const GltfObject& owner, std::string_view key) {
+      if (owner.has(key))
+        size += std::min(root_.item("accessors", accessor_of(owner, key)).whole("count"),
+                         document_.size());
+    };
+    for (std::size_t i = 0; i < mesh.size("primitives"); ++i) {
+      const GltfObject primitive = mesh.item("primitives", i);
+      add(primitive, "indices");
+      add(primitive.object("attributes"), "POSITION");
+    }
+    return size;
   }
 
   void take_vertices() {
@@ -322,7 +354,7 @@ class GltfReader {
   GltfObject root_;
   Mesh mesh_;
   std::vector<double> positions_;
-  Column normals_, texcoords_, colors_;
+  Column normals_{{0, 0, 0}}, texcoords_{{0, 0}}, colors_{{1, 1, 1, 1}};
   /// What one mesh's primitives share, by their accessors.
   std::map<std::vector<std::size_t>, Block> blocks_;
   std::string material_;
