@@ -69,6 +69,9 @@ class PlyReader {
       else
         skip(element);
     }
+    // Triangles of strips have no texture coordinates.
+    if (mesh_.texcoords.per_corner())
+      mesh_.texcoords.corners.resize(mesh_.face_vertices.size(), -1);
     take_notes();
     finish_mesh(mesh_, file_);
     return std::move(mesh_);
@@ -208,9 +211,9 @@ class PlyReader {
     using Values = decltype(mesh_.texcoords.values);
     mesh_.texcoords.values =
         Eigen::Map<const Values>(uv.data(), static_cast<Index>(uv.size() / 2), 2);
-    mesh_.texcoords.corners.resize(uv.size() / 2);
-    for (std::size_t k = 0; k < uv.size() / 2; ++k)
-      mesh_.texcoords.corners[k] = static_cast<int>(k);
+    std::vector<int>& corners = mesh_.texcoords.corners;
+    corners.assign(mesh_.face_vertices.size() - uv.size() / 2, -1);
+    for (std::size_t k = 0; k < uv.size() / 2; ++k) corners.push_back(static_cast<int>(k));
   }
 
   void read_strips(const PlyElement& element) {

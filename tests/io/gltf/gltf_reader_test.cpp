@@ -204,6 +204,7 @@ TEST(GltfReader, RefusesWhatIsNotThere) {
   expect_refused_after([](json& j) { j["bufferViews"][0]["byteStride"] = 4; }, "byteStride 4");
   expect_refused_after([](json& j) { j["meshes"][0]["primitives"][0]["material"] = 2; },
                        "material 2 does not exist");
+  expect_refused_after([](json& j) { j.erase("materials"); }, "material 1 does not exist");
   expect_refused_after([](json& j) { j["meshes"][0]["primitives"][0]["mode"] = 7; }, "mode 7");
   expect_refused_after([](json& j) { j["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 1; },
                        "NORMAL");

@@ -81,6 +81,22 @@ TEST(PlyReader, StripsAlternateAndRestart) {
   EXPECT_EQ(mesh.face_vertices, (std::vector<int>{0, 1, 2, 2, 1, 3, 2, 3, 4, 0, 1, 5}));
 }
 
+TEST(PlyReader, StripsBesideFacesHaveNoTextureCoordinates) {
+  const std::string face =
+      "element face 1\nproperty list uchar int vertex_indices\n"
+      "property list uchar float texcoord\n";
+  const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
+  const std::string begin =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\n";
+  const std::string vertices = "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
+  const std::string triangle = "3 0 1 2 6 0 0 1 0 0 1\n", strip = "3 2 1 3\n";
+  EXPECT_EQ(read(begin + face + strips + vertices + triangle + strip).texcoords.corners,
+            (std::vector<int>{0, 1, 2, -1, -1, -1}));
+  EXPECT_EQ(read(begin + strips + face + vertices + strip + triangle).texcoords.corners,
+            (std::vector<int>{-1, -1, -1, 0, 1, 2}));
+}
+
 TEST(PlyReader, SkipsWhatItDoesNotKnow) {
   const Mesh mesh = read(
       "ply\r\nformat ascii 1.0\r\nelement camera 1\r\nproperty float f\r\nelement vertex 3\r\n"
