@@ -179,6 +179,7 @@ class PcdReader {
   }
 
   void take_values() {
+    if (rows_.empty()) return;
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, values, Eigen::RowMajor>> rows(
         rows_.data(), static_cast<Index>(rows_.size() / values), values);
     mesh_.positions = rows.middleCols<3>(x);
