@@ -97,7 +97,8 @@ void OutputFile::flush() {
   std::string_view rest = buffer_;
   while (!rest.empty()) {
     const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
-    if (written < 0 && errno == EINTR) continue;
+    const bool is_stream = temporary_.empty();  // which may wait for ever; a signal ends that
+    if (written < 0 && errno == EINTR && !is_stream) continue;
     if (written < 0) fail("write");
     rest.remove_prefix(static_cast<std::size_t>(written));
   }

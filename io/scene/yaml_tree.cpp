@@ -15,7 +15,6 @@
 namespace supple {
 namespace {
 
-constexpr std::size_t max_bytes = 1 << 20;
 constexpr std::size_t max_nodes = 100'000;
 constexpr std::size_t max_depth = 64;
 
@@ -179,8 +178,8 @@ class TreeBuilder : public YAML::EventHandler {
 
 /// Refuses bytes that no text holds, and tabs as indentation, which YAML takes for something else.
 void check_bytes(std::string_view text, const std::string& name) {
-  if (text.size() > max_bytes)
-    complain({name}, fmt::format("the file has more than {} MB", max_bytes >> 20));
+  if (text.size() > largest_scene)
+    complain({name}, fmt::format("the file has more than {} MB", largest_scene >> 20));
   if (text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE"))
     complain({name, 1, 1}, "the text is UTF-16; save it as UTF-8");
   Place place{name, 1, 1};

@@ -1,17 +1,22 @@
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <new>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "io/errors.h"
 #include "io/scene/complaint.h"
 #include "modeler/cli/commands.h"
 #include "modeler/cli/interrupt.h"
+#include "modeler/cli/messages.h"
 #include "modeler/domain/shape_error.h"
 #include "modeler/pose/pose.h"
 #include "solver/core/arithmetic.h"
@@ -87,26 +92,33 @@ int flushed(int code) {
 }
 
 int report_error(std::string_view message, int code) {
-  fmt::print(stderr, "supple: {}\n", message);
+  tell("supple", message);
   return code;
 }
 
 int report_bug(std::string_view message) {
-  return report_error(fmt::format("{}\nsupple: this is a bug in Supple, not in what you asked; "
-                                  "please report it with the command that led here",
-                                  message),
-                      exit_failed);
+  tell("supple", message);
+  return report_error(
+      "this is a bug in Supple, not in what you asked; please report it with the command that "
+      "led here",
+      exit_failed);
 }
 
-int run_and_map_errors(const std::vector<std::string>& words) {
+/// What fails once a signal came fails for it.
+int report_file_error(const std::exception& error) {
+  const int signal = InterruptWatch::signal();
+  return report_error(error.what(), signal == 0 ? exit_file : 128 + signal);
+}
+
+int run_and_map_errors(std::span<char*> words) {
   try {
-    return flushed(run(words));
+    return flushed(run({words.begin(), words.end()}));
   } catch (const UsageError& error) {
     return report_error(error.what(), exit_usage);
   } catch (const InputError& error) {
-    return report_error(error.what(), exit_file);
+    return report_file_error(error);
   } catch (const OutputError& error) {
-    return report_error(error.what(), exit_file);
+    return report_file_error(error);
   } catch (const ShapeError& error) {
     return report_error(error.what(), exit_failed);
   } catch (const Interrupted& error) {
@@ -115,16 +127,26 @@ int run_and_map_errors(const std::vector<std::string>& words) {
     return report_error("the memory of this machine does not suffice; fewer particles need less",
                         exit_failed);
   } catch (const std::system_error& error) {  // a file or a stream that broke
-    return report_error(error.what(), exit_file);
+    return report_file_error(error);
   } catch (const std::exception& error) {
     return report_bug(error.what());
   }
+}
+
+/// No file may get the number of a standard stream that the caller closed: what is said would go
+/// into it. What stands in for one refuses to be read or written, as a closed one does.
+void replace_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0)
+      ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 }  // namespace
 }  // namespace supple
 
 int main(int count, char** words) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit for files is an error as others are
+  supple::replace_closed_streams();
   const supple::PlainArithmetic arithmetic;
   return supple::run_and_map_errors({words + std::min(count, 1), words + count});
 }
