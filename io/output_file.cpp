@@ -65,6 +65,7 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
       fail("make a file in its folder");
     }
   }
+  unfinished_.emplace(temporary_.c_str());
 }
 
 OutputFile::~OutputFile() {
@@ -90,6 +91,7 @@ void OutputFile::commit() {
   if (::close(std::exchange(descriptor_, -1)) != 0) fail("close");
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("replace");
+  unfinished_.reset();
   temporary_.clear();
 }
 

@@ -55,6 +55,9 @@ class TreeBuilder : public YAML::EventHandler {
                 const std::string& value) override {
     refuse_properties(mark, tag, anchor);
     const bool plain = tag == "?";
+    if (!plain) refuse_open_quote(mark);
+    if (value.find('\0') != std::string::npos)
+      complain(place(mark), "text with a zero byte (\\0) in it; leave it out");
     if (plain && !open_.empty() && open_.back().node.flow) refuse_cut_text(mark, value);
     if (key_comes()) {
       add_key(mark, value, plain);
@@ -111,6 +114,20 @@ class TreeBuilder : public YAML::EventHandler {
     if (byte_at(mark) == '!' ||
         (tag != "?" && tag != "!"))  // what plain and quoted text have for a tag
       complain(place(mark), fmt::format("tags ({}) are not allowed; leave it out", in_quotes(tag)));
+  }
+
+  /// To yaml-cpp the end of the file ends a quote too.
+  void refuse_open_quote(const YAML::Mark& mark) const {
+    const char quote = byte_at(mark);
+    if (quote != '"' && quote != '\'') return;
+    for (std::size_t i = static_cast<std::size_t>(mark.pos) + 1; i < text_.size(); ++i) {
+      const bool doubled = quote == '\'' && text_.substr(i, 2) == "''";
+      if (doubled || (quote == '"' && text_[i] == '\\'))
+        ++i;
+      else if (text_[i] == quote)
+        return;
+    }
+    complain(place(mark), fmt::format("the quote {} that begins here is not closed", quote));
   }
 
   /// In flow braces a comma ends plain text: `box(0,0,…)` would silently become "box(0".

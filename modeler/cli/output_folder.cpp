@@ -39,7 +39,7 @@ OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
   std::error_code error;
   if (fs::exists(path_, error) && !fs::is_directory(path_, error))
     throw OutputError(fmt::format("{}: cannot write: it is a file, not a folder", path_.string()));
-  made_ = fs::create_directory(path_, error);
+  if (fs::create_directory(path_, error)) made_.emplace(path_.c_str());
   if (error)
     throw OutputError(
         fmt::format("{}: cannot make the folder: {}", path_.string(), error.message()));

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "io/unfinished.h"
 
 namespace supple {
 
@@ -22,7 +25,7 @@ class OutputFolder {
 
   std::filesystem::path path_;
   int descriptor_ = -1;  ///< whose lock the system takes back however the run ends
-  bool made_ = false;
+  std::optional<Unfinished> made_;
 };
 
 }  // namespace supple

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "io/errors.h"
 #include "io/picture/picture.h"
@@ -76,7 +77,7 @@ void measure_limits(const BarRuns& bar, const Run& run, Figures& figures) {
 /// Every write of a mesh's files, of 256 KB each, cut short: refused, the old file as it was.
 void measure_every_write(Figures& figures) {
   const TemporaryFolder folder;
-  Mesh sphere = make_icosphere(1, 6);
+  Mesh sphere = make_icosphere(1, 5);
   sphere.normals.values = sphere.positions;
   for (const char* format : writable_formats) {
     const fs::path path = folder / fmt::format("a.{}", format);
@@ -160,6 +161,25 @@ void measure_kills(Figures& figures) {
                                bar.bytes("posed.png") != result["posed.png"];
 }
 
+/// A pose whose standard streams are closed: written, and told by the exit code alone. No output
+/// may get the number of a stream.
+void measure_closed_streams(const BarRuns& bar, Figures& figures) {
+  const Words pose = quick_pose("bar.off", {"-o", "posed.ply", "--report", "posed.json"});
+  bar.run(pose);
+  const std::string whole = bar.bytes("posed.ply");
+  for (const std::string closed : {"0<&-", ">&-", "2>&-", "0<&- >&- 2>&-"}) {
+    for (const char* output : {"posed.ply", "posed.json"}) fs::remove(bar.folder / output);
+    const Words words = {"-c", "exec \"$0\" \"$@\" " + closed, SUPPLE_PROGRAM};
+    const int code = Program("/bin/sh", words + pose, bar.folder.path()).wait().code;
+    const bool silent = closed.find(">&-") == 0 || closed.find(" >&-") != std::string::npos;
+    figures["closed_off"] += code != (silent ? 3 : 0) || bar.bytes("posed.ply") != whole ||
+                             !nlohmann::json::accept(bar.bytes("posed.json"));
+  }
+  const Words words = {"-c", "(\"$0\" \"$@\"; echo $? > code) | true", SUPPLE_PROGRAM};
+  Program("/bin/sh", words + pose, bar.folder.path()).wait();
+  figures["broken_pipe_exit_code"] = std::stoi(bar.bytes("code"));
+}
+
 /// A run that is stopped in its middle, with files that stood before.
 void measure_signal(const BarRuns& bar, const Words& words, double after, int signal,
                     Figures& figures) {
@@ -173,29 +193,34 @@ void measure_signal(const BarRuns& bar, const Words& words, double after, int si
   figures["other_exit_codes"] += result.code != 128 + signal;
   figures["left_behind"] += static_cast<double>(bar.folder.entries() - entries);
   figures["stopped"] += 1;
-  if (result.code != 128 + signal || result.seconds - sent > 1)
+  if (result.code != 128 + signal || result.seconds - sent > 2)
     fmt::print(stderr, "K15: signal {} after {} s of {}: exit code {} after {} s more: {}\n",
                signal, after, fmt::join(words, " "), result.code, result.seconds - sent,
                result.err);
 }
 
-Words long_pose(const Words& more) {
-  return Words{"pose",   "ball.ply", "--particles", "3000",      "--fix",      "z<10%",
-               "--move", "z>90%",    "--turn",      "0,0,1,170", "--substeps", "500"} +
+Words long_pose(const std::string& shape, const Words& more) {
+  return Words{"pose",  shape,    "--fix",     "z<10%",      "--move", "z>90%",  "-o",
+               "a.ply", "--turn", "0,0,1,170", "--substeps", "5000",   "--quiet"} +
          more;
 }
 
 void measure_signals(Figures& figures) {
   const BarRuns bar;
   write_mesh(make_torus(2, 0.7, 500, 200), bar.folder / "ball.ply");
-  for (const char* figure : {"other_exit_codes", "left_behind"}) figures[figure] = 0;
-  const std::vector<Words> runs = {
-      long_pose({"-o", "a.ply", "--quiet"}),
-      long_pose({"-o", "a.ply", "--hard-handles", "--no-inversion"}),
+  for (const char* figure : {"other_exit_codes", "left_behind", "closed_off"}) figures[figure] = 0;
+  measure_closed_streams(bar, figures);
+  // Busy with its set-up, with its steps, with one pose after the other.
+  const Words runs[] = {
+      long_pose("ball.ply", {"--particles", "3000"}),
+      long_pose("bar.off", {"--particles", "500", "--no-inversion"}),
       {"study", "ball.ply", "--fix", "z<10%", "--move", "z>90%", "--by", "10%,0,0", "-o", "study"}};
   int turn = 0;
+  ::mkfifo((bar.folder / "pipe.ply").c_str(), 0600);  // which nobody reads
+  for (const int signal : {SIGINT, SIGTERM})
+    measure_signal(bar, quick_pose("bar.off", {"-o", "pipe.ply"}), 1, signal, figures);
   for (const Words& words : runs)
-    for (const double after : {0.15, 0.3, 0.5, 0.8, 1.2, 2.0, 4.0})
+    for (const double after : {0.1, 0.4, 1.0, 3.0})
       measure_signal(bar, words, after, ++turn % 2 == 0 ? SIGTERM : SIGINT, figures);
 }
 
