@@ -2,18 +2,23 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <new>
 #include <span>
 #include <string_view>
 #include <system_error>
+#include <typeinfo>
 #include <vector>
 
+#include <cxxabi.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "io/errors.h"
 #include "io/scene/complaint.h"
+#include "io/unfinished.h"
 #include "modeler/cli/commands.h"
 #include "modeler/cli/interrupt.h"
 #include "modeler/cli/messages.h"
@@ -110,6 +115,17 @@ int report_file_error(const std::exception& error) {
   return report_error(error.what(), signal == 0 ? exit_file : 128 + signal);
 }
 
+constexpr std::string_view no_memory =
+    "the memory of this machine does not suffice; fewer particles need less";
+
+/// Where an exception cannot get out, as one that a library throws as it cleans up.
+[[noreturn]] void end_in_the_middle() {
+  const std::type_info* thrown = abi::__cxa_current_exception_type();
+  if (!thrown || *thrown != typeid(std::bad_alloc)) std::abort();
+  Unfinished::remove_all();
+  ::_exit(report_error(no_memory, exit_failed));
+}
+
 int run_and_map_errors(std::span<char*> words) {
   try {
     return flushed(run({words.begin(), words.end()}));
@@ -124,8 +140,7 @@ int run_and_map_errors(std::span<char*> words) {
   } catch (const Interrupted& error) {
     return report_error(error.what(), 128 + InterruptWatch::signal());
   } catch (const std::bad_alloc&) {
-    return report_error("the memory of this machine does not suffice; fewer particles need less",
-                        exit_failed);
+    return report_error(no_memory, exit_failed);
   } catch (const std::system_error& error) {  // a file or a stream that broke
     return report_file_error(error);
   } catch (const std::exception& error) {
@@ -146,6 +161,7 @@ void replace_closed_streams() {
 
 int main(int count, char** words) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit for files is an error as others are
+  std::set_terminate(supple::end_in_the_middle);
   supple::replace_closed_streams();
   const supple::PlainArithmetic arithmetic;
   return supple::run_and_map_errors({words + std::min(count, 1), words + count});

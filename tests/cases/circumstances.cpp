@@ -118,7 +118,7 @@ std::map<std::string, std::string> all_written() {
   bytes["png"] = bytes_of(folder / "a.png");
   const Scene scene = read_scene_text(
       "shape: {mesh: a.off, spacing: 0.125}\npose:\n  tolerance: 2.5e-7\n"
-      "  handles: [{fix: y<12.5%}, {move: z>0.75, by: [0.5%, 1.5%, 0]}]\n",
+      "  handles: [{fix: y<12.5%}, {move: z>0.75, by: [0.5%, 1.5%, 0%]}]\n",
       "s.yaml", "");
   bytes["scene"] = fmt::format("{:x}", scene_hash(scene));
   return bytes;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/mesh/mesh_files.h"
+#include "solver/core/random.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,7 +21,7 @@ struct SampleFile {
 inline Mesh colored_box() {
   Mesh mesh = make_box({1.25, 2, 3});
   mesh.colors.values.setConstant(8, 4, 0.4);
-  mesh.texcoords.values.setRandom(5, 2);
+  mesh.texcoords.values = Eigen::VectorXd::LinSpaced(10, -0.7, 1.3).reshaped(5, 2);
   for (int corner = 0; corner < 24; ++corner) mesh.texcoords.corners.push_back(corner % 5);
   return mesh;
 }
@@ -35,7 +36,9 @@ inline Mesh tagged_box() {
 
 inline Mesh cloud_with_all() {
   Mesh cloud;
-  cloud.positions = Points::Random(9, 3);
+  cloud.positions.resize(9, 3);
+  Random random(9);
+  for (double& coordinate : cloud.positions.reshaped()) coordinate = random.uniform(-1, 1);
   cloud.normals.values = cloud.positions.rowwise().normalized();
   cloud.colors.values.setConstant(9, 4, 0.4);
   cloud.colors.values.col(3).setOnes();
