@@ -65,6 +65,7 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
       fail("make a file in its folder");
     }
   }
+  unfinished_.emplace(temporary_.c_str());
 }
 
 OutputFile::~OutputFile() {
@@ -90,6 +91,7 @@ void OutputFile::commit() {
   if (::close(std::exchange(descriptor_, -1)) != 0) fail("close");
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("replace");
+  unfinished_.reset();
   temporary_.clear();
 }
 
@@ -97,7 +99,8 @@ void OutputFile::flush() {
   std::string_view rest = buffer_;
   while (!rest.empty()) {
     const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
-    if (written < 0 && errno == EINTR) continue;
+    const bool is_stream = temporary_.empty();  // which may wait for ever; a signal ends that
+    if (written < 0 && errno == EINTR && !is_stream) continue;
     if (written < 0) fail("write");
     rest.remove_prefix(static_cast<std::size_t>(written));
   }

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "io/unfinished.h"
 
 namespace supple {
 
@@ -29,6 +32,7 @@ class OutputFile {
   [[noreturn]] void fail(std::string_view action);
 
   std::filesystem::path path_, temporary_;
+  std::optional<Unfinished> unfinished_;
   std::string buffer_;
   int descriptor_ = -1;
 };

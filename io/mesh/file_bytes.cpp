@@ -13,12 +13,14 @@
 namespace supple {
 namespace {
 
-constexpr off_t largest_file = off_t{1} << 32;
+[[noreturn]] void fail_input(const std::filesystem::path& path, std::string_view why) {
+  throw InputError(fmt::format("{}: cannot read: {}", path.string(), why));
+}
 
 /// An open file for reading that closes itself.
 class InputDescriptor {
  public:
-  explicit InputDescriptor(const std::filesystem::path& path) : name_(path.string()) {
+  explicit InputDescriptor(const std::filesystem::path& path) : path_(path) {
     // O_NONBLOCK: a pipe without a writer must not make us wait before it is refused.
     descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor_ < 0) fail(::strerrordesc_np(errno));
@@ -29,15 +31,14 @@ class InputDescriptor {
   InputDescriptor(const InputDescriptor&) = delete;
   InputDescriptor& operator=(const InputDescriptor&) = delete;
 
-  std::size_t checked_size() const {
+  std::size_t checked_size(std::size_t most_bytes) const {
     struct stat status;
     if (::fstat(descriptor_, &status) != 0) fail(::strerrordesc_np(errno));
     if (S_ISDIR(status.st_mode)) fail("it is a folder");
     if (!S_ISREG(status.st_mode)) fail("it is not a regular file");
-    if (status.st_size == 0) fail("the file is empty");
-    if (status.st_size > largest_file)
-      fail(fmt::format("it has {} bytes, more than {}", status.st_size, largest_file));
-    return static_cast<std::size_t>(status.st_size);
+    const auto size = static_cast<std::size_t>(status.st_size);
+    if (size > most_bytes) fail(fmt::format("it has {} bytes, more than {}", size, most_bytes));
+    return size;
   }
 
   void read(std::string& bytes) const {
@@ -52,21 +53,24 @@ class InputDescriptor {
   }
 
  private:
-  [[noreturn]] void fail(std::string_view why) const {
-    throw InputError(fmt::format("{}: cannot read: {}", name_, why));
-  }
+  [[noreturn]] void fail(std::string_view why) const { fail_input(path_, why); }
 
-  std::string name_;
+  const std::filesystem::path& path_;
   int descriptor_ = -1;
 };
 
 }  // namespace
 
-FileBytes read_file_bytes(const std::filesystem::path& path) {
+std::string read_regular_file(const std::filesystem::path& path, std::size_t most_bytes) {
   const InputDescriptor input(path);
-  FileBytes file{.name = path.string(), .bytes = {}};
-  file.bytes.resize(input.checked_size());
-  input.read(file.bytes);
+  std::string bytes(input.checked_size(most_bytes), '\0');
+  input.read(bytes);
+  return bytes;
+}
+
+FileBytes read_file_bytes(const std::filesystem::path& path) {
+  FileBytes file{.name = path.string(), .bytes = read_regular_file(path)};
+  if (file.bytes.empty()) fail_input(path, "the file is empty");
   return file;
 }
 

@@ -1,10 +1,8 @@
 #include "io/scene/scene_reader.h"
 
-#include <fstream>
-#include <sstream>
-
 #include <fmt/format.h>
 
+#include "io/mesh/file_bytes.h"
 #include "io/scene/read_value.h"
 #include "io/scene/scene_overrides.h"
 #include "io/scene/yaml_tree.h"
@@ -28,21 +26,6 @@ void take_version(YamlNode& root) {
     root.items.erase(root.items.begin() + static_cast<std::ptrdiff_t>(i));
     return;
   }
-}
-
-std::string read_file(const std::filesystem::path& path) {
-  const auto fail = [&](std::string_view why) {
-    throw InputError(fmt::format("{}: cannot be read: {}", path.string(), why));
-  };
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) fail("there is no such file");
-  if (std::filesystem::is_directory(path, error)) fail("it is a folder");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail("permission denied, or not a file");
-  std::ostringstream text;
-  if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
-  if (file.bad()) fail("reading stopped with an error");
-  return text.str();
 }
 
 }  // namespace
@@ -69,7 +52,8 @@ Scene overridden(Scene scene, const SceneOverrides& overrides) {
 }
 
 Scene read_scene(const std::filesystem::path& path, const SceneOverrides& overrides) {
-  return read_scene_text(read_file(path), path.string(), path.parent_path(), overrides);
+  return read_scene_text(read_regular_file(path, largest_scene), path.string(), path.parent_path(),
+                         overrides);
 }
 
 }  // namespace supple

@@ -15,7 +15,6 @@
 namespace supple {
 namespace {
 
-constexpr std::size_t max_bytes = 1 << 20;
 constexpr std::size_t max_nodes = 100'000;
 constexpr std::size_t max_depth = 64;
 
@@ -56,6 +55,9 @@ class TreeBuilder : public YAML::EventHandler {
                 const std::string& value) override {
     refuse_properties(mark, tag, anchor);
     const bool plain = tag == "?";
+    if (!plain) refuse_open_quote(mark);
+    if (value.find('\0') != std::string::npos)
+      complain(place(mark), "text with a zero byte (\\0) in it; leave it out");
     if (plain && !open_.empty() && open_.back().node.flow) refuse_cut_text(mark, value);
     if (key_comes()) {
       add_key(mark, value, plain);
@@ -112,6 +114,20 @@ class TreeBuilder : public YAML::EventHandler {
     if (byte_at(mark) == '!' ||
         (tag != "?" && tag != "!"))  // what plain and quoted text have for a tag
       complain(place(mark), fmt::format("tags ({}) are not allowed; leave it out", in_quotes(tag)));
+  }
+
+  /// To yaml-cpp the end of the file ends a quote too.
+  void refuse_open_quote(const YAML::Mark& mark) const {
+    const char quote = byte_at(mark);
+    if (quote != '"' && quote != '\'') return;
+    for (std::size_t i = static_cast<std::size_t>(mark.pos) + 1; i < text_.size(); ++i) {
+      const bool doubled = quote == '\'' && text_.substr(i, 2) == "''";
+      if (doubled || (quote == '"' && text_[i] == '\\'))
+        ++i;
+      else if (text_[i] == quote)
+        return;
+    }
+    complain(place(mark), fmt::format("the quote {} that begins here is not closed", quote));
   }
 
   /// In flow braces a comma ends plain text: `box(0,0,…)` would silently become "box(0".
@@ -179,8 +195,8 @@ class TreeBuilder : public YAML::EventHandler {
 
 /// Refuses bytes that no text holds, and tabs as indentation, which YAML takes for something else.
 void check_bytes(std::string_view text, const std::string& name) {
-  if (text.size() > max_bytes)
-    complain({name}, fmt::format("the file has more than {} MB", max_bytes >> 20));
+  if (text.size() > largest_scene)
+    complain({name}, fmt::format("the file has more than {} MB", largest_scene >> 20));
   if (text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE"))
     complain({name, 1, 1}, "the text is UTF-16; save it as UTF-8");
   Place place{name, 1, 1};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,9 @@ struct YamlNode {
   std::vector<YamlKey> keys;    ///< map: one for each item, all different
   std::vector<YamlNode> items;  ///< sequence, map
 };
+
+/// The size of the largest scene that is read [bytes].
+inline constexpr std::size_t largest_scene = 1 << 20;
 
 /// Reads one YAML document strictly: UTF-8 text without tags, anchors, aliases, merges, duplicate
 /// keys and keys that are not text. A document nested deeper than 64, of more than 100,000 values

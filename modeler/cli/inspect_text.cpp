@@ -7,6 +7,7 @@
 
 #include "modeler/cli/inspect_run.h"
 #include "modeler/cli/likely_size.h"
+#include "modeler/cli/messages.h"
 
 namespace supple {
 namespace {
@@ -286,7 +287,7 @@ std::string inspect_text(const InspectRun& run) {
     label = "";
   }
   if (run.selected) add_selection(run, text);
-  for (const std::string& path : run.outputs) line(text, "wrote", "{}", path);
+  for (const std::string& path : run.outputs) line(text, "wrote", "{}", one_line(path));
   return fmt::to_string(text);
 }
 

@@ -1,7 +1,11 @@
 #include "modeler/cli/interrupt.h"
 
 #include <csignal>
+#include <string_view>
 
+#include <unistd.h>
+
+#include "io/unfinished.h"
 #include "modeler/pose/pose.h"
 
 namespace supple {
@@ -10,21 +14,41 @@ namespace {
 // A signal handler has nothing else to write to.
 volatile std::sig_atomic_t received = 0;
 
+constexpr unsigned seconds_to_end = 1;
+
+/// Ends a run that is busy where it asks for no signal.
+void end_now(int) {
+  constexpr std::string_view message = "supple: stopped by a signal\n";
+  Unfinished::remove_all();
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
+  ::_exit(128 + received);
+}
+
 void remember(int signal) {
   received = signal;
+  ::alarm(seconds_to_end);
 }
 
 void handle_both(void (*handler)(int)) {
   struct sigaction action = {};
   action.sa_handler = handler;
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  // Without SA_RESTART: who waits for a pipe's other end is to wait no longer.
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+/// Stays until the program ends: that may take its time too.
+void handle_alarm() {
+  struct sigaction action = {};
+  action.sa_handler = end_now;
+  sigaction(SIGALRM, &action, nullptr);
 }
 
 }  // namespace
 
 InterruptWatch::InterruptWatch() {
+  handle_alarm();
   handle_both(remember);
 }
 InterruptWatch::~InterruptWatch() {

@@ -3,7 +3,8 @@
 namespace supple {
 
 /// Turns SIGINT and SIGTERM into a question that the run asks, as long as it lives, so that a run
-/// ends where nothing is half-written. A second signal ends the program at once.
+/// ends where nothing is half-written. Where none is asked for within a second, the program ends
+/// there, and what was half-written goes; at a second signal it ends at once.
 class InterruptWatch {
  public:
   InterruptWatch();

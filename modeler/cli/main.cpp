@@ -1,17 +1,27 @@
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <new>
+#include <span>
 #include <string_view>
 #include <system_error>
+#include <typeinfo>
 #include <vector>
 
+#include <cxxabi.h>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "io/errors.h"
 #include "io/scene/complaint.h"
+#include "io/unfinished.h"
 #include "modeler/cli/commands.h"
 #include "modeler/cli/interrupt.h"
+#include "modeler/cli/messages.h"
 #include "modeler/domain/shape_error.h"
 #include "modeler/pose/pose.h"
 #include "solver/core/arithmetic.h"
@@ -88,29 +98,46 @@ int flushed(int code) {
 }
 
 int report_error(std::string_view message, int code) {
-  fmt::print(stderr, "supple: {}\n", message);
+  tell("supple", message);
   return code;
 }
 
 int report_bug(std::string_view message) {
-  return report_error(fmt::format("{}\nsupple: this is a bug in Supple, not in what you asked; "
-                                  "please report it with the command that led here",
-                                  message),
-                      exit_failed);
+  tell("supple", message);
+  return report_error(
+      "this is a bug in Supple, not in what you asked; please report it with the command that "
+      "led here",
+      exit_failed);
 }
 
-int run_and_map_errors(const std::vector<std::string>& words) {
+/// What fails once a signal came fails for it.
+int report_unless_stopped(const std::exception& error, int code) {
+  const int signal = InterruptWatch::signal();
+  return report_error(error.what(), signal == 0 ? code : 128 + signal);
+}
+
+constexpr std::string_view no_memory =
+    "the memory of this machine does not suffice; fewer particles need less";
+
+/// Where an exception cannot get out, as one that a library throws as it cleans up.
+[[noreturn]] void end_in_the_middle() {
+  const std::type_info* thrown = abi::__cxa_current_exception_type();
+  if (!thrown || *thrown != typeid(std::bad_alloc)) std::abort();
+  Unfinished::remove_all();
+  ::_exit(report_error(no_memory, exit_failed));
+}
+
+int run_and_map_errors(std::span<char*> words) {
   try {
-    return flushed(run(words));
+    return flushed(run({words.begin(), words.end()}));
   } catch (const UsageError& error) {
     return report_error(error.what(), exit_usage);
   } catch (const InputError& error) {
-    return report_error(error.what(), exit_file);
+    return report_unless_stopped(error, exit_file);
   } catch (const ImporterError& error) {
-    if (InterruptWatch::signal() != 0) return 128 + InterruptWatch::signal();
-    return report_error(error.what(), exit_importer);
+    return report_unless_stopped(error, exit_importer);
   } catch (const OutputError& error) {
-    return report_error(error.what(), exit_file);
+    return report_unless_stopped(error, exit_file);
   } catch (const InstallationError& error) {
     return report_error(error.what(), exit_file);
   } catch (const ShapeError& error) {
@@ -118,19 +145,29 @@ int run_and_map_errors(const std::vector<std::string>& words) {
   } catch (const Interrupted& error) {
     return report_error(error.what(), 128 + InterruptWatch::signal());
   } catch (const std::bad_alloc&) {
-    return report_error("the memory of this machine does not suffice; fewer particles need less",
-                        exit_failed);
+    return report_error(no_memory, exit_failed);
   } catch (const std::system_error& error) {  // a file or a stream that broke
-    return report_error(error.what(), exit_file);
+    return report_unless_stopped(error, exit_file);
   } catch (const std::exception& error) {
     return report_bug(error.what());
   }
+}
+
+/// No file may get the number of a standard stream that the caller closed: what is said would go
+/// into it. What stands in for one refuses to be read or written, as a closed one does.
+void replace_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0)
+      ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 }  // namespace
 }  // namespace supple
 
 int main(int count, char** words) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit for files is an error as others are
+  std::set_terminate(supple::end_in_the_middle);
+  supple::replace_closed_streams();
   const supple::PlainArithmetic arithmetic;
   return supple::run_and_map_errors({words + std::min(count, 1), words + count});
 }

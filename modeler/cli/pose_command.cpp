@@ -6,6 +6,7 @@
 #include "modeler/cli/commands.h"
 #include "modeler/cli/interrupt.h"
 #include "modeler/cli/likely_size.h"
+#include "modeler/cli/messages.h"
 #include "modeler/cli/pose_arguments.h"
 #include "modeler/cli/pose_files_reader.h"
 #include "modeler/cli/progress_line.h"
@@ -77,7 +78,7 @@ void write_outputs(const PoseArguments& arguments, ProgressLine& line, PoseRun& 
 }
 
 void print(const PoseRun& run) {
-  for (const std::string& note : run.result->report.notes) fmt::print(stderr, "note: {}\n", note);
+  for (const std::string& note : run.result->report.notes) tell("note", note);
   fmt::print("{}", summary(run));
 }
 
@@ -85,10 +86,9 @@ void print(const PoseRun& run) {
 bool judge(const Report& report, const Allowance& allowance) {
   if (report.usable() && allowance.covers(report)) return true;
   for (const Reason& reason : report.reasons)
-    fmt::print(stderr, "supple: {}: {}\n", enum_name(reason.code), reason.detail);
-  fmt::print(stderr, "supple: {}\n",
-             report.usable() ? "the pose is degraded, but written; --allow-degraded accepts it"
-                             : "the pose failed; nothing is written");
+    tell("supple", fmt::format("{}: {}", enum_name(reason.code), reason.detail));
+  tell("supple", report.usable() ? "the pose is degraded, but written; --allow-degraded accepts it"
+                                 : "the pose failed; nothing is written");
   return false;
 }
 

@@ -7,6 +7,7 @@
 #include "modeler/cli/commands.h"
 #include "modeler/cli/inside_arguments.h"
 #include "modeler/cli/interrupt.h"
+#include "modeler/cli/messages.h"
 #include "modeler/cli/picture_arguments.h"
 #include "modeler/cli/run_arguments.h"
 #include "solver/core/parallel.h"
@@ -60,9 +61,9 @@ int run_render(Words words) {
   InterruptWatch::check();
   write_png(picture, output);
   if (!run.quiet) {
-    for (const std::string& note : mesh.notes) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& note : mesh.notes) tell("note", note);
     fmt::print("{} vertices, {} faces; wrote {}\n", mesh.positions.rows(), mesh.face_count(),
-               output);
+               one_line(output));
   }
   return exit_done;
 }

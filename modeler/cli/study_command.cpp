@@ -10,6 +10,7 @@
 #include "modeler/cli/commands.h"
 #include "modeler/cli/interrupt.h"
 #include "modeler/cli/machine.h"
+#include "modeler/cli/messages.h"
 #include "modeler/cli/output_folder.h"
 #include "modeler/cli/pose_files_reader.h"
 #include "modeler/cli/progress_line.h"
@@ -130,7 +131,7 @@ int run_study(Words words) {
 
   write_outputs(run, folder, arguments.report);
   for (const std::string& note : run.notes)
-    if (!arguments.run.quiet) fmt::print(stderr, "note: {}\n", note);
+    if (!arguments.run.quiet) tell("note", note);
   if (!arguments.run.quiet) fmt::print("{}", study_text(run));
   std::fflush(stdout);
   if (has_result(run.study)) return exit_done;

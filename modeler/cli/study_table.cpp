@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "modeler/cli/messages.h"
 #include "modeler/cli/study_run.h"
 
 namespace supple {
@@ -62,7 +63,7 @@ std::vector<std::string> study_cells(const Study& study, const StudyRow& row) {
 }
 
 std::vector<std::string> study_header(const StudyRun& run) {
-  return {fmt::format("What accuracy costs in time: {}", run.input),
+  return {fmt::format("What accuracy costs in time: {}", one_line(run.input)),
           fmt::format("{}, {} thread{}", run.processor, run.threads, run.threads == 1 ? "" : "s"),
           fmt::format("supple {}, {}; scene {:016x}", SUPPLE_VERSION, run.build, run.scene_hash)};
 }

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "modeler/cli/messages.h"
+
 namespace supple {
 namespace {
 
@@ -71,7 +73,8 @@ std::string effects_table(std::span<const Effect> effects, double total_seconds)
 std::string summary(const PoseRun& run) {
   Buffer text;
   add_result(run, text);
-  for (const std::filesystem::path& path : run.outputs) add(text, "wrote      {}\n", path.string());
+  for (const std::filesystem::path& path : run.outputs)
+    add(text, "wrote      {}\n", one_line(path.string()));
   add(text, "\n{}", effects_table(run.result->effects, run.total_seconds));
   return fmt::to_string(text);
 }

@@ -1,12 +1,13 @@
 #include "modeler/domain/vertex_list.h"
 
 #include <charconv>
-#include <fstream>
+#include <sstream>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "io/errors.h"
+#include "io/mesh/file_bytes.h"
 #include "io/scene/complaint.h"
 
 namespace supple {
@@ -26,14 +27,20 @@ int to_vertex(const std::string& word, int vertex_count, const Place& place) {
   return static_cast<int>(number);
 }
 
+/// The file's text; where it cannot be read, told with the place that names the file.
+std::string read_list(const std::filesystem::path& path, const Place& place) {
+  try {
+    return read_regular_file(path);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: the vertex list {}", to_string(place), error.what()));
+  }
+}
+
 }  // namespace
 
 std::vector<char> read_vertex_list(const std::filesystem::path& path, int vertex_count,
                                    const Place& place) {
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path))
-    throw InputError(fmt::format("{}: the vertex list {} cannot be read", to_string(place),
-                                 in_quotes(path.string())));
+  std::istringstream file(read_list(path, place));
   std::vector<char> listed(vertex_count, 0);
   constexpr const char* blanks = " \t\r\v\f";
   std::string line;

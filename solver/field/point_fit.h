@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "solver/core/resize.h"
 #include "solver/field/filtered_inverse.h"
 #include "solver/field/kernel.h"
 #include "solver/field/moving_least_squares.h"
@@ -75,7 +76,7 @@ class PointFit {
     if (order_ == BasisOrder::constant) invert_linear();
     const std::vector<J>& v = block_weights();
     const double over_scale = over_scale_.value();
-    slopes.resize(static_cast<Index>(v.size()), Dim);
+    resize_rows(slopes, static_cast<Index>(v.size()));
     for (std::size_t j = 0; j < v.size(); ++j) {
       const LinearJets r = place(j);
       for (int a = 0; a < Dim; ++a) {
@@ -385,9 +386,9 @@ PointFit<Dim, Order> evaluate_jets(const MovingLeastSquares<Dim>& field, const V
   PointFit<Dim, Order> fit(field.options().order);
   fit.weigh(field, x, at_x.particles);
   const Index n = static_cast<Index>(at_x.particles.size());
-  at_x.values.resize(n);
-  at_x.gradients.resize(Order >= 1 ? n : 0, Dim);
-  at_x.seconds.resize(Order >= 2 ? n : 0, ShapeFunctions<Dim>::pairs);
+  resize_rows(at_x.values, n);
+  resize_rows(at_x.gradients, Order >= 1 ? n : 0);
+  resize_rows(at_x.seconds, Order >= 2 ? n : 0);
   at_x.rank = 0;
   if (n == 0) return fit;
   std::vector<Jet<Dim, Order>> phi;
