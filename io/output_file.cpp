@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t buffer_size = 1 << 18;
 constexpr mode_t new_file_mode = 0666;
+constexpr const char* standard_output = "-";
 
 [[noreturn]] void fail_output(const fs::path& path, std::string_view why) {
   throw OutputError(fmt::format("{}: cannot write: {}", path.string(), why));
@@ -29,6 +30,7 @@ enum class Target { file, stream };
 
 Target inspect_target(const fs::path& path) {
   if (path.empty()) throw OutputError("cannot write: the file has no name");
+  if (path == standard_output) return Target::stream;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (fs::is_directory(status)) fail_output(path, "it is a folder");
@@ -51,7 +53,8 @@ fs::path follow_link(const fs::path& path) {
 
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
   if (inspect_target(path_) == Target::stream) {
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    descriptor_ = path_ == standard_output ? ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
+                                           : ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor_ < 0) fail("open");
     return;
   }
@@ -110,7 +113,8 @@ void OutputFile::flush() {
 void OutputFile::fail(std::string_view action) {
   const int code = errno;
   const char* name = ::strerrorname_np(code);
-  throw OutputError(fmt::format("{}: cannot {}: {} ({})", path_.string(), action,
+  const std::string file = path_ == standard_output ? "standard output" : path_.string();
+  throw OutputError(fmt::format("{}: cannot {}: {} ({})", file, action,
                                 ::strerrordesc_np(code), name ? name : "?"));
 }
 

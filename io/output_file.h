@@ -12,7 +12,8 @@ namespace supple {
 /// A file that appears whole or not at all: bytes go to a temporary beside `path`, which takes
 /// its place only in commit(), after every write and the close were checked. Without a commit
 /// the temporary is removed and what stood at `path` stays. A link at `path` stays a link, a
-/// file keeps its permissions; a device or a pipe is written to as it is.
+/// file keeps its permissions; a device or a pipe is written to as it is. The path "-" stands for
+/// standard output.
 class OutputFile {
  public:
   /// Errors (here and below): OutputError that names `path` and what the system said.

@@ -14,6 +14,9 @@
 #include "io/points/point_formats.h"
 
 namespace supple {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 enum Holds : unsigned {
@@ -59,7 +62,7 @@ constexpr std::array<MeshFormat, 9> known_formats = {{
     {"xyz", read_xyz, write_xyz, holds_normals | holds_colors | holds_fine_colors},
 }};
 
-const MeshFormat* format_of(const std::filesystem::path& path) {
+const MeshFormat* format_of(const fs::path& path) {
   const std::string extension = lower_case(path.extension().string());
   for (const MeshFormat& format : known_formats)
     if (extension == fmt::format(".{}", format.name)) return &format;
@@ -83,8 +86,9 @@ const MeshFormat* recognize(const FileBytes& file) {
   return nullptr;
 }
 
-const MeshFormat& writable_format(const std::filesystem::path& path) {
-  if (const MeshFormat* format = format_of(path)) return *format;
+const MeshFormat& writable_format(const fs::path& path, std::string_view name) {
+  const MeshFormat* format = format_of(name.empty() ? path : fs::path(fmt::format("x.{}", name)));
+  if (format) return *format;
   throw OutputError(fmt::format("{}: cannot write: \"{}\" is none of the mesh formats {}",
                                 path.string(), path.extension().string(), mesh_formats()));
 }
@@ -97,7 +101,7 @@ bool has_tags(const Mesh& mesh, std::initializer_list<FaceTag::Kind> kinds) {
 
 }  // namespace
 
-Mesh read_mesh(const std::filesystem::path& path) {
+Mesh read_mesh(const fs::path& path) {
   const FileBytes file = read_file_bytes(path);
   const MeshFormat* format = format_of(path);
   if (!format) format = recognize(file);
@@ -112,12 +116,13 @@ std::string mesh_formats() {
   return names;
 }
 
-bool can_write_mesh(const std::filesystem::path& path) {
+bool can_write_mesh(const fs::path& path) {
   return format_of(path) != nullptr;
 }
 
-std::vector<std::string> left_out_by(const std::filesystem::path& path, const Mesh& mesh) {
-  const MeshFormat& format = writable_format(path);
+std::vector<std::string> left_out_by(const fs::path& path, const Mesh& mesh,
+                                     std::string_view format_name) {
+  const MeshFormat& format = writable_format(path, format_name);
   std::vector<std::string> sentences;
   const auto add = [&](unsigned needed, bool present, std::string_view what) {
     if (present && (format.holds & needed) == 0)
@@ -159,9 +164,9 @@ std::vector<std::string> left_out_by(const std::filesystem::path& path, const Me
   return sentences;
 }
 
-void write_mesh(const Mesh& mesh, const std::filesystem::path& path) {
+void write_mesh(const Mesh& mesh, const fs::path& path, std::string_view format_name) {
   check_mesh(mesh);
-  const MeshFormat& format = writable_format(path);
+  const MeshFormat& format = writable_format(path, format_name);
   OutputFile file(path);
   format.write(mesh, file);
   file.commit();

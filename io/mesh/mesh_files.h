@@ -19,15 +19,17 @@ Mesh read_mesh(const std::filesystem::path& path);
 /// Our own formats by name, for messages: "obj, off, ply, ...".
 std::string mesh_formats();
 
-/// True where `path` has an extension that write_mesh knows.
+/// True where `path` has an extension of a format that can be written.
 bool can_write_mesh(const std::filesystem::path& path);
 
-/// What of `mesh` the format of `path`'s extension cannot hold, a sentence each.
-std::vector<std::string> left_out_by(const std::filesystem::path& path, const Mesh& mesh);
+/// What of `mesh` the format of `path`'s extension, or `format` ("obj"), cannot hold, a sentence
+/// each.
+std::vector<std::string> left_out_by(const std::filesystem::path& path, const Mesh& mesh,
+                                     std::string_view format = {});
 
-/// Writes `mesh` in the format of `path`'s extension, whole or not at all. Numbers have enough
-/// digits to come back as the same float32 (OBJ, OFF: the same double).
+/// Writes `mesh` in the format of `path`'s extension, or in `format` ("obj"), whole or not at all.
+/// Numbers have enough digits to come back as the same float32 (OBJ, OFF: the same double).
 /// Errors: OutputError.
-void write_mesh(const Mesh& mesh, const std::filesystem::path& path);
+void write_mesh(const Mesh& mesh, const std::filesystem::path& path, std::string_view format = {});
 
 }  // namespace supple

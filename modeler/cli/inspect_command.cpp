@@ -9,6 +9,7 @@
 #include "modeler/cli/inside_arguments.h"
 #include "modeler/cli/inspect_run.h"
 #include "modeler/cli/interrupt.h"
+#include "modeler/cli/messages.h"
 #include "modeler/cli/picture_arguments.h"
 #include "modeler/cli/progress_line.h"
 #include "modeler/cli/report_json.h"
@@ -128,10 +129,11 @@ int run_inspect(Words words) {
     run.outputs.push_back(arguments.report);
   }
   line.clear();
+  std::FILE* const stream = text_stream({arguments.picture, arguments.report});
   if (arguments.json)
-    fmt::print("{}", inspect_json(run));
+    fmt::print(stream, "{}", inspect_json(run));
   else if (!arguments.run.quiet)
-    fmt::print("{}", inspect_text(run));
+    fmt::print(stream, "{}", inspect_text(run));
   return exit_done;
 }
 

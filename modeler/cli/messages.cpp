@@ -43,4 +43,8 @@ void tell(std::string_view beginning, std::string_view text) {
   print("\n");
 }
 
+std::FILE* text_stream(std::initializer_list<std::string_view> outputs) {
+  return std::find(outputs.begin(), outputs.end(), "-") == outputs.end() ? stdout : stderr;
+}
+
 }  // namespace supple

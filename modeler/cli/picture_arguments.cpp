@@ -54,7 +54,7 @@ void PictureArguments::set_size(const std::string& value) {
 }
 
 void check_picture_name(const std::string& path, std::string_view option) {
-  if (std::filesystem::path(path).extension() != ".png")
+  if (path != "-" && std::filesystem::path(path).extension() != ".png")
     throw UsageError(fmt::format("{} {}: a picture's name ends in .png", option, path));
 }
 

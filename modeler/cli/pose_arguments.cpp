@@ -64,8 +64,11 @@ bool PoseArguments::parse(Words words) {
 
 void PoseArguments::declare_outputs(CommandLine& line) {
   line.begin_group("Output");
-  line.option("-o,--output", {"FILE", fmt::format("the posed mesh ({})", mesh_formats())},
+  line.option("-o,--output",
+              {"FILE", fmt::format("the posed mesh ({}); - is standard output", mesh_formats())},
               [this](const std::string& value) { mesh = value; });
+  line.option("--format", {"NAME", "the mesh's format, where its name does not say"},
+              [this](const std::string& value) { format = value; });
   line.option("--picture", {"FILE.png", "the shape before and after, with its handles"},
               [this](const std::string& value) { picture = value; });
   line.option("--report", {"FILE.json", "what the run did, and how well"},
@@ -91,11 +94,19 @@ void PoseArguments::allow(const std::string& reasons) {
 void PoseArguments::check() const {
   if (mesh.empty() && picture.empty() && report.empty())
     throw UsageError("nothing to write; give -o FILE, --picture FILE.png or --report FILE.json");
-  if (!mesh.empty() && !can_write_mesh(mesh))
+  if (!format.empty() && !can_write_mesh("x." + format))
+    throw UsageError(fmt::format("--format {}: not a mesh format that can be written; allowed: {}",
+                                 in_quotes(format), mesh_formats()));
+  if (!mesh.empty() && mesh != "-" && format.empty() && !can_write_mesh(mesh))
     throw UsageError(fmt::format("-o {}: not a mesh format that can be written; allowed: {}", mesh,
                                  mesh_formats()));
   if (!picture.empty()) check_picture_name(picture, "--picture");
   check_distinct({mesh, picture, report});
+}
+
+std::string PoseArguments::mesh_format(const std::filesystem::path& input) const {
+  if (!format.empty() || mesh != "-") return format;
+  return can_write_mesh(input) ? input.extension().string().substr(1) : "obj";
 }
 
 void PoseArguments::check_outputs() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,15 @@ struct PoseArguments {
   PictureArguments picture_view;
   RunArguments run;
   Allowance allowance;
-  std::string mesh, picture, report;  ///< outputs; empty: not asked for
+  std::string mesh, picture, report;  ///< outputs; empty: not asked for; "-": standard output
+  std::string format;                 ///< of the mesh; empty: by its name
 
   /// False where the help was printed. Errors: UsageError.
   bool parse(Words words);
+
+  /// What write_mesh is to write: `format`, or, where the output has no name, that of `input`,
+  /// or else OBJ.
+  std::string mesh_format(const std::filesystem::path& input) const;
 
   /// Throws OutputError where an output could not be written later.
   void check_outputs() const;

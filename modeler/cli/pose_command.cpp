@@ -58,14 +58,16 @@ void write_picture(const PoseResult& result, const PoseArguments& arguments) {
   write_png(render({before, after}, arguments.picture_view.options()), arguments.picture);
 }
 
-void write_outputs(const PoseArguments& arguments, ProgressLine& line, PoseRun& run) {
+void write_outputs(const PoseArguments& arguments, const Scene& scene, ProgressLine& line,
+                   PoseRun& run) {
   const Stopwatch watch;
   line.show("write", 0);
   InterruptWatch::check();
   if (!arguments.mesh.empty()) {
-    for (std::string& sentence : left_out_by(arguments.mesh, run.result->mesh))
+    const std::string format = arguments.mesh_format(scene.shape.file());
+    for (std::string& sentence : left_out_by(arguments.mesh, run.result->mesh, format))
       run.result->report.notes.push_back(std::move(sentence));
-    write_mesh(run.result->mesh, arguments.mesh);
+    write_mesh(run.result->mesh, arguments.mesh, format);
     run.outputs.push_back(arguments.mesh);
   }
   InterruptWatch::check();
@@ -77,9 +79,9 @@ void write_outputs(const PoseArguments& arguments, ProgressLine& line, PoseRun& 
   run.write_seconds = watch.seconds();
 }
 
-void print(const PoseRun& run) {
+void print(const PoseRun& run, std::FILE* stream) {
   for (const std::string& note : run.result->report.notes) tell("note", note);
-  fmt::print("{}", summary(run));
+  fmt::print(stream, "{}", summary(run));
 }
 
 /// Whether the run ends well; says on standard error why it does not.
@@ -123,10 +125,11 @@ int run_pose(Words words) {
     write_report();
     throw;
   }
-  if (run.result->report.usable()) write_outputs(arguments, line, run);
+  if (run.result->report.usable()) write_outputs(arguments, scene, line, run);
   write_report();
   if (!arguments.report.empty()) run.outputs.push_back(arguments.report);
-  if (!arguments.run.quiet) print(run);
+  if (!arguments.run.quiet)
+    print(run, text_stream({arguments.mesh, arguments.picture, arguments.report}));
   std::fflush(stdout);
   return judge(run.result->report, arguments.allowance) ? exit_done : exit_failed;
 }

@@ -62,8 +62,8 @@ int run_render(Words words) {
   write_png(picture, output);
   if (!run.quiet) {
     for (const std::string& note : mesh.notes) tell("note", note);
-    fmt::print("{} vertices, {} faces; wrote {}\n", mesh.positions.rows(), mesh.face_count(),
-               one_line(output));
+    fmt::print(text_stream({output}), "{} vertices, {} faces; wrote {}\n", mesh.positions.rows(),
+               mesh.face_count(), one_line(output));
   }
   return exit_done;
 }

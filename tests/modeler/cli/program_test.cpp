@@ -233,6 +233,24 @@ TEST_F(ProgramTest, SignalsStopARunWithNothingHalfWritten) {
     expect_lacks(entry.path().filename().string(), "posed");
 }
 
+TEST_F(ProgramTest, StandardOutputTakesOneOutput) {
+  const std::vector<std::string> pose = {"pose",  "bar.obj", "--particles", "60",   "--fix",
+                                         "y<10%", "--move",  "y>90%",       "--by", "0.1,0,0"};
+  const auto with = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), pose.begin(), pose.end());
+    return run(words);
+  };
+  const ProgramResult file = with({"-o", "posed.obj"}), stream = with({"-o", "-"});
+  EXPECT_EQ(stream.code, 0) << stream.err;
+  EXPECT_EQ(stream.out, bytes_of(folder / "posed.obj"));
+  expect_contains(stream.err, "shape");  // what people read moves aside
+  EXPECT_TRUE(with({"-o", "-", "--format", "glb"}).out.starts_with("glTF"));
+  EXPECT_EQ(Json::parse(with({"--report", "-"}).out)["status"], "ok");
+  EXPECT_TRUE(run({"render", "bar.obj", "-o", "-"}).out.starts_with("\x89PNG"));
+  EXPECT_EQ(with({"-o", "-", "--report", "-"}).code, 2);
+  expect_usage_error(with({"-o", "-", "--format", "fbx"}), "allowed: obj");
+}
+
 TEST_F(ProgramTest, AFullStandardOutputIsAnError) {
   const std::string call = SUPPLE_PROGRAM " plan scene.yaml > /dev/full";
   EXPECT_EQ(Program("/bin/sh", {"-c", call}, folder.path()).wait().code, 3);
