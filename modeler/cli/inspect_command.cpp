@@ -15,7 +15,6 @@
 #include "modeler/cli/report_json.h"
 #include "modeler/cli/run_arguments.h"
 #include "modeler/domain/shape_error.h"
-#include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 
 namespace supple {
@@ -99,7 +98,7 @@ int run_inspect(Words words) {
   if (!arguments.selection.empty()) selection = parse_selection(arguments.selection, {"--select"});
 
   const InterruptWatch interrupts;
-  const ThreadLimit threads(arguments.run.threads);
+  arguments.run.limit_threads();
   ProgressLine line(arguments.run.quiet ? ProgressLine::Mode::silent
                                         : ProgressLine::Mode::if_terminal);
   const Stopwatch watch;

@@ -117,14 +117,26 @@ int report_unless_stopped(const std::exception& error, int code) {
 }
 
 constexpr std::string_view no_memory =
-    "the memory of this machine does not suffice; fewer particles need less";
+    "the memory of this machine does not suffice; fewer particles and fewer --threads need less";
+
+/// At once: the clean-up of libraries needs memory, or waits for threads that never had any.
+[[noreturn]] void leave_without_memory() {
+  Unfinished::remove_all();
+  tell("supple", no_memory);
+  std::fflush(stdout);
+  ::_exit(exit_failed);
+}
+
+/// What oneTBB throws where the system grants no further thread.
+bool lacks_threads(const std::exception& error) {
+  return std::string_view(error.what()).starts_with("pthread_create");
+}
 
 /// Where an exception cannot get out, as one that a library throws as it cleans up.
 [[noreturn]] void end_in_the_middle() {
   const std::type_info* thrown = abi::__cxa_current_exception_type();
   if (!thrown || *thrown != typeid(std::bad_alloc)) std::abort();
-  Unfinished::remove_all();
-  ::_exit(report_error(no_memory, exit_failed));
+  leave_without_memory();
 }
 
 int run_and_map_errors(std::span<char*> words) {
@@ -145,12 +157,25 @@ int run_and_map_errors(std::span<char*> words) {
   } catch (const Interrupted& error) {
     return report_error(error.what(), 128 + InterruptWatch::signal());
   } catch (const std::bad_alloc&) {
-    return report_error(no_memory, exit_failed);
+    leave_without_memory();
   } catch (const std::system_error& error) {  // a file or a stream that broke
     return report_unless_stopped(error, exit_file);
   } catch (const std::exception& error) {
+    if (lacks_threads(error)) leave_without_memory();
     return report_bug(error.what());
   }
+}
+
+volatile std::sig_atomic_t code_to_leave_with = 0;
+
+/// Ends the program soon, also where the clean-up of libraries hangs, as that of OpenBLAS does
+/// whose threads got no memory.
+int leave(int code) {
+  constexpr unsigned seconds = 5;
+  code_to_leave_with = code;
+  std::signal(SIGALRM, [](int) { ::_exit(code_to_leave_with); });
+  ::alarm(seconds);
+  return code;
 }
 
 /// No file may get the number of a standard stream that the caller closed: what is said would go
@@ -169,5 +194,5 @@ int main(int count, char** words) {
   std::set_terminate(supple::end_in_the_middle);
   supple::replace_closed_streams();
   const supple::PlainArithmetic arithmetic;
-  return supple::run_and_map_errors({words + std::min(count, 1), words + count});
+  return supple::leave(supple::run_and_map_errors({words + std::min(count, 1), words + count}));
 }

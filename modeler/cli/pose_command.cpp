@@ -14,7 +14,6 @@
 #include "modeler/cli/report_json.h"
 #include "modeler/cli/summary.h"
 #include "modeler/domain/shape_error.h"
-#include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 
 namespace supple {
@@ -100,7 +99,7 @@ int run_pose(Words words) {
   PoseArguments arguments;
   if (!arguments.parse(words)) return exit_done;
   const InterruptWatch interrupts;
-  const ThreadLimit threads(arguments.run.threads);
+  arguments.run.limit_threads();
   ProgressLine line(arguments.run.quiet ? ProgressLine::Mode::silent
                                         : ProgressLine::Mode::if_terminal);
   const Stopwatch watch;

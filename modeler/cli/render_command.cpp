@@ -10,7 +10,6 @@
 #include "modeler/cli/messages.h"
 #include "modeler/cli/picture_arguments.h"
 #include "modeler/cli/run_arguments.h"
-#include "solver/core/parallel.h"
 
 namespace supple {
 namespace {
@@ -46,7 +45,7 @@ int run_render(Words words) {
     throw UsageError("--particles and --spacing: only together with --show");
 
   const InterruptWatch interrupts;
-  const ThreadLimit threads(run.threads);
+  run.limit_threads();
   check_writable(output);
   const Mesh mesh = read_mesh(file);
   InterruptWatch::check();

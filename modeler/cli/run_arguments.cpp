@@ -1,6 +1,7 @@
 #include "modeler/cli/run_arguments.h"
 
 #include "modeler/cli/values.h"
+#include "solver/core/parallel.h"
 
 namespace supple {
 namespace {
@@ -16,6 +17,12 @@ void RunArguments::declare(CommandLine& line) {
                 threads = parse_count(value, "--threads", 1, most_threads);
               });
   line.flag("--quiet", "print nothing but errors", [this] { quiet = true; });
+}
+
+void RunArguments::limit_threads() const {
+  // Never taken back: oneTBB needs memory for that, and ends the program where there is none.
+  static const ThreadLimit* const limit = new ThreadLimit(threads);
+  static_cast<void>(limit);
 }
 
 }  // namespace supple

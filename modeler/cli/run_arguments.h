@@ -11,6 +11,9 @@ struct RunArguments {
 
   /// Declares the options; `*this` must outlive the parsing.
   void declare(CommandLine& line);
+
+  /// Works with `threads` from now on.
+  void limit_threads() const;
 };
 
 }  // namespace supple

@@ -107,7 +107,7 @@ int run_study(Words words) {
   StudyArguments arguments;
   if (!arguments.parse(words)) return exit_done;
   const InterruptWatch interrupts;
-  const ThreadLimit threads(arguments.run.threads);
+  arguments.run.limit_threads();
   const Stopwatch watch;
   Scene scene = arguments.scene.take();
   check_scene(scene);

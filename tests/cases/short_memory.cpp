@@ -72,10 +72,11 @@ void measure_failures(const BarRuns& bar, const Words& words, const Words& outpu
 /// The program within so many KB of addresses.
 void measure_address_limits(const BarRuns& bar, Figures& figures) {
   const Words pose = quick_pose("bar.off", {"-o", "posed.off"});
-  for (const int kilobytes : {1'000, 10'000, 30'000, 60'000, 80'000, 100'000, 120'000, 140'000,
+  for (const int kilobytes : {10'000, 20'000, 30'000, 60'000, 80'000, 100'000, 120'000, 140'000,
                               170'000, 200'000, 250'000, 300'000, 400'000, 600'000}) {
-    const Words words = {"-c", fmt::format("ulimit -v {}; exec \"$0\" \"$@\"", kilobytes),
-                         SUPPLE_PROGRAM};
+    const Words words = {
+        "-c", fmt::format("ulimit -v {}; exec timeout -s KILL 20 \"$0\" \"$@\"", kilobytes),
+        SUPPLE_PROGRAM};
     const ProgramResult run = Program("/bin/sh", words + pose, bar.folder.path()).wait();
     figures["limits_done"] += run.code == 0;
     figures["limits_refused"] += run.code == 1 || run.code == 126 || run.code == 127;
@@ -91,17 +92,17 @@ void measure_short_memory(Figures& figures) {
     figures[figure] = 0;
   const Words pose =
       quick_pose("bar.off", {"-o", "posed.off", "--report", "posed.json", "--threads", "1"});
-  measure_failures(bar, pose, {"posed.off", "posed.json"}, 60, figures);
+  measure_failures(bar, pose, {"posed.off", "posed.json"}, 40, figures);
   bar.folder.put("scene.yaml",
                  "shape: {mesh: bar.off, particles: 60}\npose:\n  handles:\n    - fix: y<10%\n");
   measure_failures(bar, {"plan", "scene.yaml"}, {}, 20, figures);
   for (const SampleFile& sample : sample_files()) {
     bar.folder.put(sample.name, sample.bytes);
-    measure_failures(bar, {"inspect", sample.name, "--json", "--threads", "1"}, {}, 10, figures);
+    measure_failures(bar, {"inspect", sample.name, "--json", "--threads", "1"}, {}, 3, figures);
   }
   for (const char* format : {"obj", "ply", "stl", "pcd", "xyz"}) {
     const std::string output = fmt::format("posed.{}", format);
-    measure_failures(bar, quick_pose("bar.off", {"-o", output, "--threads", "1"}), {output}, 5,
+    measure_failures(bar, quick_pose("bar.off", {"-o", output, "--threads", "1"}), {output}, 3,
                      figures);
   }
   measure_address_limits(bar, figures);
