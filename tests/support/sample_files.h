@@ -69,6 +69,8 @@ inline std::vector<SampleFile> sample_files() {
       {"ascii.stl",
        "solid box\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
        "vertex 0 1 0\nendloop\nendfacet\nendsolid box\n\n"},
+      {"a.glb", written(tagged_box(), "a.glb")},
+      {"a.gltf", written(tagged_box(), "a.gltf")},
       {"cloud.ply", written(cloud, "a.ply")},
       {"a.pcd", written(cloud, "a.pcd")},
       {"ascii.pcd",
