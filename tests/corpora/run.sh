@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Hard case B12: all shapes of two collections that Debian packages are posed gently, dirty, broken
-# and hostile ones among them. None may crash, take more than 20 s or 4 GB; each ends as
-# endings.txt says: ok, degraded or failed with its reasons, or refused with its exit code.
+# Hard case B12: all files of two collections that Debian packages are posed gently: shapes of many
+# formats, dirty, broken and hostile ones among them, and what is no shape. None may crash, take
+# more than 20 s or 4 GB; each ends as endings.txt says: ok, degraded or failed with its reasons, or
+# refused with its exit code (4: the importer died).
 #   tests/corpora/run.sh PROGRAM FOLDER           compares; shapes are fetched into FOLDER once
 #   tests/corpora/run.sh PROGRAM FOLDER --store   writes endings.txt anew
 set -euo pipefail
@@ -34,7 +35,7 @@ ending() {
   ) || status=$?
   case $status in
     0 | 1) printf '%s\t%s\n' "$1" "$(status_and_reasons "$work/report.json")" ;;
-    2 | 3) printf '%s\trefused %d\n' "$1" $status ;;
+    2 | 3 | 4) printf '%s\trefused %d\n' "$1" $status ;;
     124) printf '%s\ttook more than 20 s\n' "$1" ;;
     *) printf '%s\tcrashed %d\n' "$1" $status ;;
   esac
@@ -51,8 +52,8 @@ status_and_reasons() {
 [[ -d shapes ]] || fetch
 export program
 export -f ending status_and_reasons
-find shapes -type f | grep --ignore-case --extended-regexp '\.(obj|ply|off|stl|xyz|pwn|pcd)$' |
-  LC_ALL=C sort | xargs --delimiter='\n' --max-args=1 --max-procs="$(nproc)" bash -c 'ending "$0"' |
+find shapes -type f | LC_ALL=C sort |
+  xargs --delimiter='\n' --max-args=1 --max-procs="$(nproc)" bash -c 'ending "$0"' |
   LC_ALL=C sort >endings.txt
 
 if [[ ${3-} == --store ]]; then

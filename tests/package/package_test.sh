@@ -13,6 +13,8 @@ mv "$folder/first" "$folder/prefix"
 "$folder/prefix/bin/supple" --version
 found=$(ldd "$folder/prefix/bin/supple")
 [[ $found == *"libsupple_solver.so => $folder/prefix/"* ]]
+printf '0 0 0 1 0 0 0 1 0\n' >"$folder/triangle.raw"
+[[ $("$folder/prefix/bin/supple" inspect "$folder/triangle.raw") == *"read by assimp"* ]]
 man --warnings -E UTF-8 -l "$folder/prefix/share/man/man1/supple.1" >/dev/null 2>"$folder/man.txt"
 [[ ! -s $folder/man.txt ]]
 
