@@ -29,7 +29,8 @@ std::span<const Case> pose_cases();              ///< C: poses
 std::span<const Case> extreme_pose_cases();      ///< C: whole turns, reflections, wild weights
 std::span<const Case> destroyed_start_cases();   ///< C: solves from states without a shape
 std::span<const Case> input_cases();             ///< K: inputs and outputs
-std::span<const Case> hostile_file_cases();      ///< K: files that lie, or end too early
+std::span<const Case> hostile_file_cases();      ///< K: files that lie
+std::span<const Case> cut_file_cases();          ///< K: files that end too early
 std::span<const Case> odd_input_cases();         ///< K: names, scenes and files that are none
 std::span<const Case> short_memory_cases();      ///< K: allocations that fail
 std::span<const Case> fault_cases();             ///< K: disks and processes that give out

@@ -16,8 +16,9 @@ std::vector<Case> all_cases() {
   for (const auto& group :
        {moment_matrix_cases(), degenerate_cloud_cases(), coupling_cases(), geometry_cases(),
         point_cloud_cases(), pose_cases(), extreme_pose_cases(), destroyed_start_cases(),
-        input_cases(), hostile_file_cases(), odd_input_cases(), fault_cases(), short_memory_cases(),
-        circumstance_cases(), importer_cases(), solver_cases(), repeated_pose_cases()})
+        input_cases(), hostile_file_cases(), cut_file_cases(), odd_input_cases(), fault_cases(),
+        short_memory_cases(), circumstance_cases(), importer_cases(), solver_cases(),
+        repeated_pose_cases()})
     cases.insert(cases.end(), group.begin(), group.end());
   return cases;
 }
