@@ -104,7 +104,7 @@ std::map<std::string, std::string> all_written() {
   for (const SampleFile& sample : sample_files()) {
     Mesh mesh = read_mesh(folder.put(sample.name, sample.bytes));
     mesh.positions *= 1234.5;
-    for (const char* format : {"obj", "off", "ply", "stl", "pcd", "pwn", "xyz"}) {
+    for (const char* format : {"obj", "off", "ply", "stl", "glb", "gltf", "pcd", "pwn", "xyz"}) {
       const std::string name = fmt::format("b.{}", format);
       const bool fits = (mesh.face_count() > 0 || format != std::string_view("stl")) &&
                         (!mesh.normals.empty() || format != std::string_view("pwn"));

@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* writable_formats[] = {"obj", "off", "ply", "stl", "pcd", "pwn", "xyz"};
+constexpr const char* writable_formats[] = {"obj",  "off", "ply", "stl", "glb",
+                                            "gltf", "pcd", "pwn", "xyz"};
 
 const Words quick_study = {"study", "bar.off", "--fix",   "z<10%",   "--move",    "z>90%",
                            "--by",  "10%,0,0", "--quick", "--knobs", "particles", "--particles",

@@ -100,7 +100,7 @@ void measure_short_memory(Figures& figures) {
     bar.folder.put(sample.name, sample.bytes);
     measure_failures(bar, {"inspect", sample.name, "--json", "--threads", "1"}, {}, 3, figures);
   }
-  for (const char* format : {"obj", "ply", "stl", "pcd", "xyz"}) {
+  for (const char* format : {"obj", "ply", "stl", "glb", "pcd", "xyz"}) {
     const std::string output = fmt::format("posed.{}", format);
     measure_failures(bar, quick_pose("bar.off", {"-o", output, "--threads", "1"}), {output}, 3,
                      figures);
