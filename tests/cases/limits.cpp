@@ -266,7 +266,7 @@ constexpr Limit table[] = {
     {"K16", "survived", at_most, 60, "runs that did without that memory"},
     {"K16", "broken", equal, 0, "outputs that are neither old nor whole"},
     {"K16", "left_behind", equal, 0, "files that were not there before"},
-    {"K16", "limits_done", at_least, 1, "of 14 poses within 10 … 600 MB of addresses"},
+    {"K16", "limits_done", at_least, 1, "of 16 poses within 5 … 600 MB of addresses"},
     {"K16", "limits_refused", at_least, 3, "of these: exit code 1, or the loader's"},
     {"K16", "limits_by_signal", equal, 0, "of these: ended by a signal"},
     {"K17", "locales_with_comma", at_least, 1, "of C++ streams, of C: the control"},

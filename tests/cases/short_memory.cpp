@@ -72,8 +72,9 @@ void measure_failures(const BarRuns& bar, const Words& words, const Words& outpu
 /// The program within so many KB of addresses.
 void measure_address_limits(const BarRuns& bar, Figures& figures) {
   const Words pose = quick_pose("bar.off", {"-o", "posed.off"});
-  for (const int kilobytes : {10'000, 20'000, 30'000, 60'000, 80'000, 100'000, 120'000, 140'000,
-                              170'000, 200'000, 250'000, 300'000, 400'000, 600'000}) {
+  for (const int kilobytes :
+       {5'000, 10'000, 15'000, 20'000, 30'000, 60'000, 80'000, 100'000, 120'000, 140'000, 170'000,
+        200'000, 250'000, 300'000, 400'000, 600'000}) {
     const Words words = {
         "-c", fmt::format("ulimit -v {}; exec timeout -s KILL 20 \"$0\" \"$@\"", kilobytes),
         SUPPLE_PROGRAM};

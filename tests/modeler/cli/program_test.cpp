@@ -77,7 +77,7 @@ TEST_F(ProgramTest, ComplainsOfValuesThatAreNotAllowed) {
   expect_usage_error(pose_bar({"--size", "12"}), "WIDTHxHEIGHT");
   expect_usage_error(pose_bar({"--threads", "0"}), "from 1 to");
   expect_usage_error(pose_bar({"--allow-degraded=handle_mis"}), "did you mean 'handle_miss'?");
-  expect_usage_error(run({"pose", "bar.obj", "-o", "posed.glb"}), "obj, off, ply, stl");
+  expect_usage_error(run({"pose", "bar.obj", "-o", "posed.fbx"}), "obj, off, ply, stl");
   expect_usage_error(run({"pose", "bar.obj", "--picture", "posed.jpg"}), ".png");
   expect_usage_error(pose_bar({"--report", "posed.obj"}), "named for two outputs");
 }
