@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "io/mesh/mesh_checks.h"
+#include "io/mesh/plain_name.h"
 
 namespace supple {
 namespace {
@@ -25,7 +26,7 @@ class FolderOnly : public Assimp::DefaultIOSystem {
     return is_below(path) && DefaultIOSystem::Exists(path);
   }
   Assimp::IOStream* Open(const char* path, const char* mode) override {
-    return is_below(path) ? DefaultIOSystem::Open(path, mode) : nullptr;
+    return *mode == 'r' && is_below(path) ? DefaultIOSystem::Open(path, mode) : nullptr;
   }
 
  private:
@@ -41,15 +42,9 @@ class FolderOnly : public Assimp::DefaultIOSystem {
   std::filesystem::path folder_;
 };
 
-/// A name on one line that no OBJ reader takes for anything else.
-std::string plain_name(const aiString& name) {
-  std::string text(name.data, std::min<std::size_t>(name.length, MAXLEN - 1));
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == '\\' || c == 0x7f; },
-      ' ');
-  const std::size_t begin = text.find_first_not_of(' ');
-  if (begin == text.npos) return "unnamed";
-  return text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+std::string name_of(const aiString& name) {
+  const std::string plain = plain_name({name.data, std::min<std::size_t>(name.length, MAXLEN - 1)});
+  return plain.empty() ? "unnamed" : plain;
 }
 
 class SceneReader {
@@ -61,13 +56,19 @@ class SceneReader {
     take_values();
     note_left_out(mesh_, animations(), "animations");
     note_left_out(mesh_, bones_, "bones: the vertices stand where the file has them");
-    note_left_out(mesh_, scene_.mNumTextures + textures(), "textures");
+    note_left_out(mesh_, textures(), "textures");
+    note_left_out(mesh_, scene_.mNumCameras, "cameras");
+    note_left_out(mesh_, scene_.mNumLights, "lights");
+    note_left_out(mesh_, morph_targets_, "morph targets");
+    note_left_out(mesh_, further_sets_, "further sets of texture coordinates and colors");
+    if ((scene_.mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0)
+      mesh_.notes.push_back("assimp says that the scene is not complete");
     note_left_out(mesh_, thin_, "points and lines");
     return std::move(mesh_);
   }
 
  private:
-  static constexpr int deepest = 10'000;
+  static constexpr int deepest = 2'000;
 
   void read_node(const aiNode& node, const aiMatrix4x4& above, int depth) {
     if (depth > deepest) throw std::runtime_error("its nodes nest too deep");
@@ -85,17 +86,20 @@ class SceneReader {
   void read_mesh(const aiMesh& from, const aiNode& node, const aiMatrix4x4& transform) {
     const auto first = static_cast<int>(positions_.size());
     mesh_.tags.push_back({FaceTag::Kind::object,
-                          plain_name(from.mName.length > 0 ? from.mName : node.mName),
+                          name_of(from.mName.length > 0 ? from.mName : node.mName),
                           mesh_.face_count()});
     if (from.mMaterialIndex < scene_.mNumMaterials)
       mesh_.tags.push_back({FaceTag::Kind::material,
-                            plain_name(scene_.mMaterials[from.mMaterialIndex]->GetName()),
+                            name_of(scene_.mMaterials[from.mMaterialIndex]->GetName()),
                             mesh_.face_count()});
     const aiMatrix3x3 turn = aiMatrix3x3(transform).Inverse().Transpose();
     for (unsigned i = 0; i < from.mNumVertices; ++i) add_vertex(from, i, transform, turn);
     const bool mirrored = aiMatrix3x3(transform).Determinant() < 0;
     for (unsigned i = 0; i < from.mNumFaces; ++i) add_face(from, from.mFaces[i], first, mirrored);
     bones_ += from.mNumBones;
+    morph_targets_ += from.mNumAnimMeshes;
+    further_sets_ += std::max(from.GetNumUVChannels(), 1u) - 1;
+    further_sets_ += std::max(from.GetNumColorChannels(), 1u) - 1;
   }
 
   void add_vertex(const aiMesh& from, unsigned i, const aiMatrix4x4& transform,
@@ -103,7 +107,7 @@ class SceneReader {
     const aiVector3D x = transform * from.mVertices[i];
     if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z))
       throw std::runtime_error(
-          fmt::format("vertex {} of \"{}\" is not finite", i, plain_name(from.mName)));
+          fmt::format("vertex {} of \"{}\" is not finite", i, name_of(from.mName)));
     positions_.emplace_back(x.x, x.y, x.z);
     aiVector3D n = from.HasNormals() ? (turn * from.mNormals[i]).NormalizeSafe() : aiVector3D();
     if (!std::isfinite(n.x + n.y + n.z)) n = {};
@@ -126,7 +130,7 @@ class SceneReader {
     for (unsigned i = 0; i < face.mNumIndices; ++i)
       if (face.mIndices[i] >= from.mNumVertices)
         throw std::runtime_error(fmt::format("a face of \"{}\" uses vertex {} of {}",
-                                             plain_name(from.mName), face.mIndices[i],
+                                             name_of(from.mName), face.mIndices[i],
                                              from.mNumVertices));
     if (face.mNumIndices < 3) {
       ++thin_;
@@ -169,18 +173,19 @@ class SceneReader {
   std::vector<Eigen::RowVector2d> texcoords_;
   std::vector<Eigen::RowVector4d> colors_;
   bool has_normals_ = false, has_texcoords_ = false, has_colors_ = false;
-  long long bones_ = 0, thin_ = 0;
+  long long bones_ = 0, thin_ = 0, morph_targets_ = 0, further_sets_ = 0;
 };
 
 }  // namespace
 
 Mesh import_scene(const std::filesystem::path& path) {
   Assimp::Importer importer;
+  importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);  // which no file has
   importer.SetIOHandler(new FolderOnly(path));  // which the importer deletes
   // Their counts are checked against the file's size by our own readers alone.
-  for (const char* ours : {"obj", "off", "ply", "stl"})
-    if (Assimp::BaseImporter* reader = importer.GetImporter(ours))
-      importer.UnregisterLoader(reader);
+  for (const char* ours : {"obj", "off", "ply", "stl", "gltf", "glb"})
+    while (Assimp::BaseImporter* reader = importer.GetImporter(ours))
+      if (importer.UnregisterLoader(reader) != aiReturn_SUCCESS) break;
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_JoinIdenticalVertices);
   if (!scene || !scene->mRootNode) throw std::runtime_error(importer.GetErrorString());
   return SceneReader(*scene).read();

@@ -14,12 +14,13 @@
 #include <unistd.h>
 
 #include "importer/import_scene.h"
+#include "io/import/importer_protocol.h"
 #include "io/mesh/mesh_formats.h"
 #include "io/output_file.h"
 
 namespace {
 
-constexpr int exit_cannot_read = 3, exit_usage = 2;
+constexpr int exit_usage = 2;
 
 bool parse(std::string_view text, rlim_t& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -31,7 +32,7 @@ void limit(int resource, rlim_t value) {
   ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
-/// No more than it needs: it cannot write a file, and does not outlive who asked.
+/// No more than it needs: no bytes into files, and it does not outlive who asked.
 void confine(rlim_t bytes, rlim_t seconds) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   limit(RLIMIT_AS, bytes);
@@ -47,14 +48,15 @@ int import(const char* path) {
     supple::OutputFile out("/dev/stdout");
     supple::write_obj(mesh, out);
     out.commit();
-    for (const std::string& note : mesh.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+    for (const std::string& note : mesh.notes)
+      std::fprintf(stderr, "%s%s\n", supple::importer_note, note.c_str());
     return 0;
   } catch (const std::bad_alloc&) {
     std::fputs("it asks for more memory than such a file may take\n", stderr);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
   }
-  return exit_cannot_read;
+  return supple::importer_cannot_read;
 }
 
 }  // namespace

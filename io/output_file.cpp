@@ -41,6 +41,12 @@ Target inspect_target(const fs::path& path) {
   return fs::is_regular_file(status) ? Target::file : Target::stream;
 }
 
+/// Never more open than the file that it will replace.
+mode_t mode_of(const fs::path& path) {
+  struct stat old;
+  return ::stat(path.c_str(), &old) == 0 ? old.st_mode & new_file_mode : new_file_mode;
+}
+
 /// The file that `path` stands for: a link is followed, so that it stays a link.
 fs::path follow_link(const fs::path& path) {
   std::error_code error;
@@ -62,7 +68,7 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
   for (int attempt = 0; descriptor_ < 0; ++attempt) {
     temporary_ = path_.parent_path() / fmt::format(".supple-{}-{}.tmp", ::getpid(), attempt);
     descriptor_ =
-        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, new_file_mode);
+        ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode_of(path_));
     if (descriptor_ < 0 && errno != EEXIST) {
       temporary_.clear();
       fail("make a file in its folder");
@@ -114,8 +120,8 @@ void OutputFile::fail(std::string_view action) {
   const int code = errno;
   const char* name = ::strerrorname_np(code);
   const std::string file = path_ == standard_output ? "standard output" : path_.string();
-  throw OutputError(fmt::format("{}: cannot {}: {} ({})", file, action,
-                                ::strerrordesc_np(code), name ? name : "?"));
+  throw OutputError(fmt::format("{}: cannot {}: {} ({})", file, action, ::strerrordesc_np(code),
+                                name ? name : "?"));
 }
 
 void check_writable(const fs::path& path) {

@@ -111,7 +111,7 @@ class AccessorReader {
         type_(accessor_.whole("componentType")),
         normalized_(accessor_.flag("normalized")) {
     // Without a view, zeros: still no more of them than the file's bytes could hold.
-    if (count_ > document.size())
+    if (count_ > document.size() / columns_)
       accessor_.fail(fmt::format("count {} is more than the buffers' {} bytes can hold", count_,
                                  document.size()));
     component_bytes(accessor_, type_);
@@ -152,6 +152,7 @@ class AccessorReader {
   void read_sparse(AccessorValues& values) const {
     const GltfObject sparse = accessor_.object("sparse");
     const std::size_t count = sparse.whole("count");
+    if (count > count_) sparse.fail(fmt::format("count {} of {} elements", count, count_));
     const GltfObject places = sparse.object("indices");
     const Elements indices =
         find_elements(document_, places, places.whole("componentType"), 1, count);
@@ -171,6 +172,11 @@ class AccessorReader {
 };
 
 }  // namespace
+
+std::size_t accessor_of(const GltfDocument& document, const GltfObject& owner,
+                        std::string_view name) {
+  return owner.index(name, document.root().size("accessors"), "accessors");
+}
 
 AccessorValues read_accessor(const GltfDocument& document, std::size_t index,
                              std::initializer_list<int> columns, std::string_view what) {

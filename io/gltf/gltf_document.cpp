@@ -1,6 +1,7 @@
 #include "io/gltf/gltf_document.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -133,11 +134,10 @@ void check_extensions(const GltfDocument& document) {
 
 void take_buffers(GltfDocument& document, const Parts& parts) {
   const GltfObject root = document.root();
+  std::size_t read = 0;
   for (std::size_t i = 0; i < root.size("buffers"); ++i) {
     const GltfObject buffer = root.item("buffers", i);
     const std::size_t length = buffer.whole("byteLength");
-    if (length > most_bytes - document.size())
-      buffer.fail(fmt::format("the buffers have more than {} bytes", most_bytes));
     std::string bytes;
     if (buffer.has("uri"))
       bytes = uri_bytes(document, buffer.text("uri", ""));
@@ -147,7 +147,11 @@ void take_buffers(GltfDocument& document, const Parts& parts) {
       buffer.fail("it has no bytes: neither a URI nor a binary chunk");
     if (bytes.size() < length)
       buffer.fail(fmt::format("cut short: byteLength is {}, there are {}", length, bytes.size()));
+    read += bytes.size();
+    if (read > most_bytes)
+      buffer.fail(fmt::format("the buffers have more than {} bytes", most_bytes));
     bytes.resize(length);
+    bytes.shrink_to_fit();
     document.buffers.push_back(std::move(bytes));
   }
 }
@@ -156,9 +160,11 @@ void take_buffers(GltfDocument& document, const Parts& parts) {
 std::string percent_decoded(std::string_view uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned value = 0;
-    if (uri[i] == '%' && i + 2 < uri.size() &&
-        std::sscanf(std::string(uri.substr(i + 1, 2)).c_str(), "%2x", &value) == 1) {
+    unsigned char value = 0;
+    const std::string_view digits = uri.substr(i + 1, 2);
+    const char* const end = digits.data() + digits.size();
+    if (uri[i] == '%' && digits.size() == 2 &&
+        std::from_chars(digits.data(), end, value, 16).ptr == end) {
       text += static_cast<char>(value);
       i += 2;
     } else {
@@ -168,10 +174,13 @@ std::string percent_decoded(std::string_view uri) {
   return text;
 }
 
-/// A file may name what lies beside it, and nothing else of the user's.
-bool stays_in_folder(const std::filesystem::path& path) {
-  return !path.empty() && path.is_relative() &&
-         std::find(path.begin(), path.end(), "..") == path.end();
+/// A file may name what lies beside it, and nothing else of the user's: not by links either.
+bool stays_in_folder(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  std::error_code error;
+  const std::filesystem::path root = std::filesystem::weakly_canonical(folder, error);
+  const std::filesystem::path place = std::filesystem::weakly_canonical(root / path, error);
+  if (error || path.empty() || path.is_absolute()) return false;
+  return std::mismatch(root.begin(), root.end(), place.begin(), place.end()).first == root.end();
 }
 
 }  // namespace
@@ -202,6 +211,7 @@ std::string_view view_bytes(const GltfDocument& document, std::size_t index) {
   if (offset > bytes.size() || length > bytes.size() - offset)
     view.fail(
         fmt::format("{} bytes from {} on, buffer {} has {}", length, offset, buffer, bytes.size()));
+  if (length == 0) view.fail("it has no bytes");
   return bytes.substr(offset, length);
 }
 
@@ -214,10 +224,16 @@ std::string uri_bytes(const GltfDocument& document, std::string_view uri) {
     return *bytes;
   }
   const std::filesystem::path path = percent_decoded(uri);
-  if (!stays_in_folder(path))
+  const std::filesystem::path folder = std::filesystem::absolute(document.name).parent_path();
+  if (!stays_in_folder(path, folder))
     fail(document.name, fmt::format("\"{}\" is not read: it is no file in the folder of this one",
                                     uri.substr(0, 200)));
   return read_file_bytes(std::filesystem::path(document.name).parent_path() / path).bytes;
+}
+
+std::string short_name(const GltfObject& object) {
+  constexpr std::size_t most = 500;
+  return object.text("name", "").substr(0, most);
 }
 
 }  // namespace supple

@@ -37,4 +37,7 @@ std::string_view view_bytes(const GltfDocument& document, std::size_t view);
 /// Errors: InputError where it is neither, or cannot be read.
 std::string uri_bytes(const GltfDocument& document, std::string_view uri);
 
+/// The beginning of a name: a small file must not become a large one by repeating a long one.
+std::string short_name(const GltfObject& object);
+
 }  // namespace supple

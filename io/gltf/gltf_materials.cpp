@@ -1,6 +1,7 @@
 #include "io/gltf/gltf_materials.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -32,20 +33,26 @@ class TextureReferences {
   void check(json& object, const std::string& path) {
     if (!object.is_object()) return;
     for (auto member = object.begin(); member != object.end();) {
-      const std::string below = path + "." + member.key();
       const bool is_texture = member.key().ends_with("Texture") && member->is_object();
-      if (is_texture) GltfObject(*member, below).index("index", textures_, "textures");
-      if (is_texture && GltfObject(*member, below).whole("texCoord", 0) > 0) {
+      if (is_texture && uses_other_coordinates({*member, path + "." + member.key()})) {
         member = object.erase(member);
         ++taken_out_;
         continue;
       }
-      check(*member, below);
+      if (member.key() != "extras") check(*member, path);
       ++member;
     }
   }
 
  private:
+  bool uses_other_coordinates(const GltfObject& texture) const {
+    texture.index("index", textures_, "textures");
+    constexpr const char* moved = "KHR_texture_transform";
+    const std::size_t set = texture.whole("texCoord", 0);
+    if (!texture.has("extensions") || !texture.object("extensions").has(moved)) return set > 0;
+    return texture.object("extensions").object(moved).whole("texCoord", set) > 0;
+  }
+
   std::size_t textures_;
   int taken_out_ = 0;
 };
@@ -71,27 +78,36 @@ std::string media_type(std::string_view bytes) {
   return {};
 }
 
-/// The bytes of an image, which leave its JSON; where they cannot be had its URI stays.
-std::string take_image(const GltfDocument& document, const GltfObject& source, json& image,
-                       std::vector<std::string>& notes) {
-  std::string bytes;
-  if (source.has("bufferView")) {
+/// The bytes of an image. Files are embedded only where they are images: a file must not make the
+/// user give away what else lies in its folder.
+std::string image_bytes(const GltfDocument& document, const GltfObject& image) {
+  if (image.has("bufferView")) {
     const std::size_t views = document.root().size("bufferViews");
-    bytes = view_bytes(document, source.index("bufferView", views, "bufferViews"));
-  } else {
-    try {
-      bytes = uri_bytes(document, source.text("uri", ""));
-    } catch (const InputError& error) {
-      notes.push_back(
-          fmt::format("an image is only named, its bytes are missing: {}", error.what()));
-      return {};
-    }
+    return std::string(view_bytes(document, image.index("bufferView", views, "bufferViews")));
+  }
+  const std::string uri = image.text("uri", "");
+  std::string bytes = uri_bytes(document, uri);
+  if (bytes.empty() || (!uri.starts_with("data:") && media_type(bytes).empty()))
+    image.fail(fmt::format("\"{}\" is no PNG, JPEG, WebP or KTX2", uri.substr(0, 200)));
+  return bytes;
+}
+
+/// The same, taken out of the JSON; where they cannot be had its URI stays.
+std::string take_image(const GltfDocument& document, const GltfObject& source, json& image,
+                       std::vector<std::string>& missing) {
+  std::string bytes;
+  try {
+    bytes = image_bytes(document, source);
+  } catch (const InputError& error) {
+    if (!source.has("uri")) throw;
+    missing.emplace_back(error.what());
+    return {};
   }
   image.erase("bufferView");
   image.erase("uri");
   if (!image.contains("mimeType")) {
     const std::string type = media_type(bytes);
-    if (!type.empty()) image["mimeType"] = type;
+    image["mimeType"] = type.empty() ? "application/octet-stream" : type;
   }
   return bytes;
 }
@@ -101,11 +117,13 @@ std::vector<std::string> different_names(const GltfDocument& document) {
   const GltfObject root = document.root();
   std::vector<std::string> names;
   std::set<std::string> taken;
+  std::map<std::string, int> copies;
   for (std::size_t i = 0; i < root.size("materials"); ++i) {
-    const std::string given = root.item("materials", i).text("name", "");
-    std::string name = given.empty() ? fmt::format("material {}", i) : given;
-    for (int copy = 2; !taken.insert(name).second; ++copy)
-      name = fmt::format("{} ({})", given, copy);
+    const std::string given = short_name(root.item("materials", i));
+    const std::string base = given.empty() ? fmt::format("material {}", i) : given;
+    std::string name = base;
+    int& copy = copies.try_emplace(base, 1).first->second;
+    while (!taken.insert(name).second) name = fmt::format("{} ({})", base, ++copy);
     names.push_back(name);
   }
   return names;
@@ -131,8 +149,9 @@ std::shared_ptr<const GltfMaterials> take_materials(const GltfDocument& document
                                                     std::vector<std::string>& notes) {
   const GltfObject root = document.root();
   auto result = std::make_shared<GltfMaterials>();
+  result->copyright = root.object("asset").text("copyright", "");
   result->materials = array_of(document, "materials");
-  if (result->materials.empty()) return nullptr;
+  if (result->materials.empty() && result->copyright.empty()) return nullptr;
   result->textures = array_of(document, "textures");
   result->samplers = array_of(document, "samplers");
   result->images = array_of(document, "images");
@@ -142,9 +161,10 @@ std::shared_ptr<const GltfMaterials> take_materials(const GltfDocument& document
   for (std::size_t i = 0; i < result->textures.size(); ++i)
     check_texture(root.item("textures", i), *result);
   std::size_t bytes = 0;
+  std::vector<std::string> missing;
   for (std::size_t i = 0; i < result->images.size(); ++i) {
     const GltfObject image = root.item("images", i);
-    result->image_bytes.push_back(take_image(document, image, result->images[i], notes));
+    result->image_bytes.push_back(take_image(document, image, result->images[i], missing));
     bytes += result->image_bytes.back().size();
     if (bytes > document.size() + most_image_bytes)
       image.fail("the images together are larger than they could be without sharing their bytes");
@@ -153,9 +173,12 @@ std::shared_ptr<const GltfMaterials> take_materials(const GltfDocument& document
   result->extensions = used_extensions(*result);
   for (std::size_t i = 0; i < root.size("extensionsRequired"); ++i) {
     const std::string name = document.json["extensionsRequired"][i];
-    if (std::count(result->extensions.begin(), result->extensions.end(), name) > 0)
+    if (std::binary_search(result->extensions.begin(), result->extensions.end(), name))
       result->required_extensions.push_back(name);
   }
+  if (!missing.empty())
+    notes.push_back(fmt::format("{} images are only named, their bytes are missing: {}",
+                                missing.size(), missing.front()));
   if (references.taken_out() > 0)
     notes.push_back(
         fmt::format("left out: {} textures of materials that lie by other texture "

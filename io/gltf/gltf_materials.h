@@ -19,9 +19,10 @@ struct GltfMaterials {
   std::vector<std::string> extensions;           ///< that they use
   std::vector<std::string> required_extensions;  ///< of these, what readers must know
   std::vector<std::string> names;                ///< of the materials, all different
+  std::string copyright;                         ///< of the file
 };
 
-/// Null where there are no materials. Notes go to `notes`.
+/// Null where there are neither materials nor a copyright. Notes go to `notes`.
 /// Errors: InputError where a material refers to what is not there.
 std::shared_ptr<const GltfMaterials> take_materials(const GltfDocument& document,
                                                     std::vector<std::string>& notes);

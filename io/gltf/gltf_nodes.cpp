@@ -1,5 +1,7 @@
 #include "io/gltf/gltf_nodes.h"
 
+#include <map>
+
 #include <fmt/format.h>
 
 #include "io/gltf/gltf_accessor.h"
@@ -32,74 +34,104 @@ class NodeTree {
       : document_(document),
         root_(document.root()),
         count_(root_.size("nodes")),
+        parents_(find_parents()),
         world_(count_, Affine3d::Identity()),
-        in_scene_(count_, false) {
-    for (const std::size_t node : top_nodes()) visit(node, Affine3d::Identity());
+        is_placed_(count_, false) {
+    for (const std::size_t top : tops()) walk(top, [this](std::size_t node) { place(node); });
   }
 
-  std::vector<PlacedMesh> meshes() const {
+  std::vector<PlacedMesh> meshes() {
     std::vector<PlacedMesh> placed;
-    for (const std::size_t index : order_) {
-      const GltfObject node = root_.item("nodes", index);
-      if (!node.has("mesh")) continue;
-      const std::size_t mesh = node.index("mesh", root_.size("meshes"), "meshes");
-      const std::string name = node.text("name", root_.item("meshes", mesh).text("name", ""));
-      placed.push_back({mesh, name, world_[index], {}});
-      if (node.has("skin"))
-        placed.back().joints = joints(node.index("skin", root_.size("skins"), "skins"));
-    }
+    std::vector<bool> is_seen(count_, false);
+    for (const std::size_t top : scene_nodes())
+      walk(top, [&](std::size_t index) {
+        const GltfObject node = root_.item("nodes", index);
+        if (is_seen[index] || !is_placed_[index]) node.fail(in_tree_twice);
+        is_seen[index] = true;
+        if (node.has("mesh")) placed.push_back(placed_mesh(node, world_[index]));
+      });
     return placed;
   }
 
  private:
-  std::vector<std::size_t> top_nodes() const {
-    if (root_.size("scenes") == 0) return nodes_without_parent();
-    const std::size_t scene =
-        root_.has("scene") ? root_.index("scene", root_.size("scenes"), "scenes") : 0;
-    return root_.item("scenes", scene).indices("nodes", count_);
-  }
-
-  std::vector<std::size_t> nodes_without_parent() const {
-    std::vector<bool> is_child(count_, false);
-    for (std::size_t node = 0; node < count_; ++node)
-      for (const std::size_t child : children(node)) is_child[child] = true;
-    std::vector<std::size_t> tops;
-    for (std::size_t node = 0; node < count_; ++node)
-      if (!is_child[node]) tops.push_back(node);
-    return tops;
-  }
+  static constexpr const char* in_tree_twice = "it stands in the scene's tree twice";
 
   std::vector<std::size_t> children(std::size_t node) const {
     return root_.item("nodes", node).indices("children", count_);
   }
 
-  /// Walks down from a top node; with a stack of its own, since trees may be as deep as they like.
-  void visit(std::size_t top, const Affine3d& parent) {
-    std::vector<std::pair<std::size_t, Affine3d>> stack{{top, parent}};
+  std::vector<std::size_t> find_parents() const {
+    std::vector<std::size_t> parents(count_, count_);
+    for (std::size_t node = 0; node < count_; ++node)
+      for (const std::size_t child : children(node)) {
+        if (parents[child] < count_) root_.item("nodes", child).fail(in_tree_twice);
+        parents[child] = node;
+      }
+    return parents;
+  }
+
+  std::vector<std::size_t> tops() const {
+    std::vector<std::size_t> tops;
+    for (std::size_t node = 0; node < count_; ++node)
+      if (parents_[node] == count_) tops.push_back(node);
+    return tops;
+  }
+
+  std::vector<std::size_t> scene_nodes() const {
+    if (root_.size("scenes") == 0) return tops();
+    const std::size_t scene =
+        root_.has("scene") ? root_.index("scene", root_.size("scenes"), "scenes") : 0;
+    return root_.item("scenes", scene).indices("nodes", count_);
+  }
+
+  /// Visits a node, and then all below it, by a stack of its own: trees may be as deep as they
+  /// like. `visit` throws where it comes around to a node again.
+  template <class Visit>
+  void walk(std::size_t top, const Visit& visit) const {
+    std::vector<std::size_t> stack{top};
     while (!stack.empty()) {
-      const auto [index, above] = stack.back();
+      const std::size_t node = stack.back();
       stack.pop_back();
-      const GltfObject node = root_.item("nodes", index);
-      if (in_scene_[index]) node.fail("it stands in the scene's tree twice");
-      in_scene_[index] = true;
-      order_.push_back(index);
-      world_[index] = above * local_transform(node);
-      if (!world_[index].matrix().allFinite()) node.fail("its place is not finite");
-      const std::vector<std::size_t> below = children(index);
-      for (auto child = below.rbegin(); child != below.rend(); ++child)
-        stack.emplace_back(*child, world_[index]);
+      visit(node);
+      const std::vector<std::size_t> below = children(node);
+      stack.insert(stack.end(), below.rbegin(), below.rend());
     }
   }
 
-  std::vector<Affine3d> joints(std::size_t index) const {
+  void place(std::size_t index) {
+    const GltfObject node = root_.item("nodes", index);
+    const Affine3d local = local_transform(node);
+    world_[index] = parents_[index] < count_ ? world_[parents_[index]] * local : local;
+    if (!world_[index].matrix().allFinite()) node.fail("its place is not finite");
+    is_placed_[index] = true;
+  }
+
+  PlacedMesh placed_mesh(const GltfObject& node, const Affine3d& transform) {
+    const std::size_t mesh = node.index("mesh", root_.size("meshes"), "meshes");
+    const std::string own = short_name(node);
+    PlacedMesh placed{mesh, own.empty() ? short_name(root_.item("meshes", mesh)) : own, transform,
+                      nullptr};
+    if (node.has("skin")) placed.joints = joints(node.index("skin", root_.size("skins"), "skins"));
+    return placed;
+  }
+
+  /// Computed once, however many meshes share the skin.
+  std::shared_ptr<const std::vector<Affine3d>> joints(std::size_t index) {
+    auto& shared = skins_[index];
+    if (!shared) shared = std::make_shared<const std::vector<Affine3d>>(joint_transforms(index));
+    return shared;
+  }
+
+  std::vector<Affine3d> joint_transforms(std::size_t index) const {
     const GltfObject skin = root_.item("skins", index);
     std::vector<Affine3d> transforms;
-    for (const std::size_t node : skin.indices("joints", count_))
+    for (const std::size_t node : skin.indices("joints", count_)) {
+      if (!is_placed_[node]) skin.fail(fmt::format("joint {} stands in no tree", node));
       transforms.push_back(world_[node]);
+    }
     if (!skin.has("inverseBindMatrices")) return transforms;
-    const std::size_t accessor =
-        skin.index("inverseBindMatrices", root_.size("accessors"), "accessors");
-    const AccessorValues inverse = read_accessor(document_, accessor, {16}, "bind matrix");
+    const AccessorValues inverse = read_accessor(
+        document_, accessor_of(document_, skin, "inverseBindMatrices"), {16}, "bind matrix");
     if (inverse.rows() < static_cast<Eigen::Index>(transforms.size()))
       skin.fail("it has fewer inverseBindMatrices than joints");
     for (std::size_t joint = 0; joint < transforms.size(); ++joint) {
@@ -115,9 +147,10 @@ class NodeTree {
   const GltfDocument& document_;
   GltfObject root_;
   std::size_t count_;
-  std::vector<Affine3d> world_;  ///< of a node of the scene
-  std::vector<bool> in_scene_;
-  std::vector<std::size_t> order_;
+  std::vector<std::size_t> parents_;  ///< count_: none
+  std::vector<Affine3d> world_;
+  std::vector<bool> is_placed_;  ///< all but nodes that are above themselves
+  std::map<std::size_t, std::shared_ptr<const std::vector<Affine3d>>> skins_;
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,8 +14,8 @@ struct PlacedMesh {
   std::size_t mesh;
   std::string name;  ///< the node's, or else the mesh's
   Eigen::Affine3d transform;
-  /// Of a skin's joints, from the places in the accessors to the scene; empty without a skin.
-  std::vector<Eigen::Affine3d> joints;
+  /// Of its skin's joints, from the places in the accessors to the scene; null without a skin.
+  std::shared_ptr<const std::vector<Eigen::Affine3d>> joints;
 };
 
 /// The meshes of the default scene (the first where none is said, all nodes where there is none),

@@ -46,7 +46,8 @@ bool share_out_vertices(const Mesh& mesh, std::vector<Run>& runs) {
 std::vector<Run> runs_of(const Mesh& mesh) {
   std::vector<Run> runs = runs_of_faces(mesh);
   if (share_out_vertices(mesh, runs)) return runs;
-  return {{runs.front().name, 0, mesh.face_count(), 0, static_cast<int>(mesh.positions.rows())}};
+  const std::string name = runs.size() == 1 ? runs.front().name : "";
+  return {{name, 0, mesh.face_count(), 0, static_cast<int>(mesh.positions.rows())}};
 }
 
 class PartBuilder {
@@ -112,6 +113,11 @@ class PartBuilder {
 };
 
 }  // namespace
+
+bool objects_are_apart(const Mesh& mesh) {
+  std::vector<Run> runs = runs_of_faces(mesh);
+  return runs.size() == 1 || share_out_vertices(mesh, runs);
+}
 
 std::vector<GltfPart> gltf_parts(const Mesh& mesh) {
   const Triangulation triangulation = triangulate(mesh);

@@ -26,8 +26,11 @@ struct GltfPart {
   std::vector<GltfPrimitive> primitives;
 };
 
-/// The objects of `mesh` with vertices of their own; the mesh as one part where its objects share
-/// vertices or these do not stand in the objects' order. Each part begins with its run of the
+/// Whether the objects of `mesh` have vertices of their own, one object's behind the other's.
+bool objects_are_apart(const Mesh& mesh);
+
+/// The objects of `mesh` with vertices of their own; the mesh as one part without a name where
+/// they are not apart. Each part begins with its run of the
 /// mesh's vertices, in their order; those that a corner needs once more follow behind.
 std::vector<GltfPart> gltf_parts(const Mesh& mesh);
 

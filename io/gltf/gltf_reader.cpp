@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -40,6 +41,7 @@ class GltfReader {
     for (const PlacedMesh& part : placed) read_faces(part);
     if (mesh_.face_count() == 0)
       for (const PlacedMesh& part : placed) read_points(part);
+    if (vertices_.count() == 0 && line_sets_ > 0) root_.fail("it has lines alone");
     vertices_.take(mesh_);
     note_what_is_kept(placed);
     finish_mesh(mesh_, file_);
@@ -97,12 +99,13 @@ class GltfReader {
     const auto [first, count] = add_vertices(placed, primitive);
     std::vector<int> corners;
     if (primitive.has("indices")) {
-      corners = read_indices(document_, accessor_of(primitive, "indices"),
+      corners = read_indices(document_, accessor_of(document_, primitive, "indices"),
                              static_cast<std::size_t>(count));
     } else {
       for (int i = 0; i < count; ++i) corners.push_back(i);
     }
-    const bool mirrored = placed.joints.empty() && placed.transform.linear().determinant() < 0;
+    const bool is_skinned = placed.joints && primitive.object("attributes").has("JOINTS_0");
+    const bool mirrored = !is_skinned && placed.transform.linear().determinant() < 0;
     const std::size_t step = mode == triangles ? 3 : 1;
     if (mode == triangles && corners.size() % 3 != 0)
       primitive.fail(fmt::format("{} corners are no triangles", corners.size()));
@@ -119,11 +122,8 @@ class GltfReader {
   /// Reads the primitive's vertices, once where several share them.
   Block add_vertices(const PlacedMesh& placed, const GltfObject& primitive) {
     const GltfObject attributes = primitive.object("attributes");
-    std::vector<std::size_t> key;
-    for (const char* name :
-         {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0", "JOINTS_0", "WEIGHTS_0"})
-      key.push_back(attributes.has(name) ? accessor_of(attributes, name) : -1);
-    const auto [block, is_new] = blocks_.try_emplace(key, Block{vertices_.count(), 0});
+    const auto [block, is_new] =
+        blocks_.try_emplace(accessors_of(attributes), Block{vertices_.count(), 0});
     if (is_new) {
       block->second.count = vertices_.append(placed, attributes);
       morph_targets_ += primitive.size("targets");
@@ -132,8 +132,13 @@ class GltfReader {
     return block->second;
   }
 
-  std::size_t accessor_of(const GltfObject& attributes, std::string_view name) const {
-    return attributes.index(name, root_.size("accessors"), "accessors");
+  /// By which primitives know that they share vertices.
+  std::vector<std::size_t> accessors_of(const GltfObject& attributes) const {
+    std::vector<std::size_t> accessors;
+    for (const char* name :
+         {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0", "JOINTS_0", "WEIGHTS_0"})
+      accessors.push_back(attributes.has(name) ? accessor_of(document_, attributes, name) : -1);
+    return accessors;
   }
 
   /// Before anything is read: vertices and corners, counted where nodes repeat them.
@@ -157,13 +162,15 @@ class GltfReader {
     std::size_t size = 0;
     const auto add = [&](const GltfObject& owner, std::string_view key) {
       if (owner.has(key))
-        size += std::min(root_.item("accessors", accessor_of(owner, key)).whole("count"),
+        size += std::min(root_.item("accessors", accessor_of(document_, owner, key)).whole("count"),
                          document_.size());
     };
+    std::set<std::vector<std::size_t>> blocks;
     for (std::size_t i = 0; i < mesh.size("primitives"); ++i) {
       const GltfObject primitive = mesh.item("primitives", i);
+      const GltfObject attributes = primitive.object("attributes");
       add(primitive, "indices");
-      add(primitive.object("attributes"), "POSITION");
+      if (blocks.insert(accessors_of(attributes)).second) add(attributes, "POSITION");
     }
     return size;
   }
@@ -176,10 +183,11 @@ class GltfReader {
   }
 
   void note_what_is_kept(const std::vector<PlacedMesh>& placed) {
-    if (mesh_.gltf_materials)
-      mesh_.notes.push_back(fmt::format("kept for glTF: {} materials with {} images",
-                                        mesh_.gltf_materials->names.size(),
-                                        mesh_.gltf_materials->images.size()));
+    if (const GltfMaterials* kept = mesh_.gltf_materials.get())
+      mesh_.notes.push_back(
+          fmt::format("kept for glTF: {} materials with {} images", kept->names.size(),
+                      std::count_if(kept->image_bytes.begin(), kept->image_bytes.end(),
+                                    [](const std::string& bytes) { return !bytes.empty(); })));
     const auto is_moved = [](const PlacedMesh& part) {
       return !part.transform.isApprox(Affine3d::Identity(), 0);
     };
@@ -197,6 +205,18 @@ class GltfReader {
     note("sets of lines: only triangles are read", line_sets_);
     for (const auto& [name, count] : attributes_left_out_) note("vertex attributes " + name, count);
     if (root_.size("scenes") > 1) note("scenes", root_.size("scenes") - 1);
+    note_extensions();
+  }
+
+  void note_extensions() {
+    std::vector<std::string> known;
+    if (mesh_.gltf_materials) known = mesh_.gltf_materials->extensions;
+    for (std::size_t i = 0; i < root_.size("extensionsUsed"); ++i) {
+      const nlohmann::json& name = document_.json["extensionsUsed"][i];
+      if (!name.is_string() || name == "KHR_mesh_quantization") continue;
+      if (!std::binary_search(known.begin(), known.end(), name.get<std::string>()))
+        mesh_.notes.push_back("left out: extension " + name.get<std::string>().substr(0, 80));
+    }
   }
 
   void note(std::string_view what, std::size_t count) {

@@ -12,10 +12,8 @@ namespace {
 
 using Eigen::Affine3d;
 
-std::size_t accessor_of(const GltfDocument& document, const GltfObject& attributes,
-                        std::string_view name) {
-  return attributes.index(name, document.root().size("accessors"), "accessors");
-}
+/// Of four joints a vertex; a small file must not have one accessor read again and again.
+constexpr int most_joint_sets = 4;
 
 /// Where each vertex of a primitive goes: one transform for all, or a mean of joints' for each.
 class Placement {
@@ -23,7 +21,7 @@ class Placement {
   Placement(const GltfDocument& document, const PlacedMesh& placed, const GltfObject& attributes,
             Index vertices)
       : placed_(placed) {
-    for (int set = 0; !placed.joints.empty(); ++set) {
+    for (int set = 0; placed.joints && set < most_joint_sets; ++set) {
       const std::string joints = fmt::format("JOINTS_{}", set),
                         weights = fmt::format("WEIGHTS_{}", set);
       if (!attributes.has(joints) || !attributes.has(weights)) break;
@@ -43,7 +41,7 @@ class Placement {
     for (std::size_t set = 0; set < joints_.size(); ++set)
       for (int i = 0; i < 4; ++i) {
         const auto joint = static_cast<std::size_t>(joints_[set](vertex, i));
-        sum.affine() += weights_[set](vertex, i) * placed_.joints[joint].affine();
+        sum.affine() += weights_[set](vertex, i) * (*placed_.joints)[joint].affine();
         weight += weights_[set](vertex, i);
       }
     if (weight <= 0) return placed_.transform;
@@ -53,7 +51,7 @@ class Placement {
 
  private:
   void check(const GltfObject& attributes, Index vertices) const {
-    const double joints = static_cast<double>(placed_.joints.size());
+    const double joints = static_cast<double>(placed_.joints->size());
     if (joints_.back().rows() != vertices || weights_.back().rows() != vertices)
       attributes.fail("joints, weights and positions differ in number");
     if (vertices > 0 && (joints_.back().minCoeff() < 0 || joints_.back().maxCoeff() >= joints))

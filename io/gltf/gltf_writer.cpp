@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "io/errors.h"
 #include "io/gltf/base64.h"
 #include "io/gltf/gltf_color.h"
 #include "io/gltf/gltf_formats.h"
@@ -168,6 +171,7 @@ class GltfWriter {
   void put_materials() {
     if (!mesh_.gltf_materials) return;
     const GltfMaterials& from = *mesh_.gltf_materials;
+    if (!from.copyright.empty()) json_["asset"]["copyright"] = from.copyright;
     for (std::size_t i = 0; i < from.names.size(); ++i) materials_[from.names[i]] = i;
     const std::pair<const char*, const json&> lists[] = {
         {"materials", from.materials}, {"textures", from.textures}, {"samplers", from.samplers}};

@@ -99,10 +99,8 @@ class Child {
     std::array<pollfd, 2> pipes{{{out_.reader(), POLLIN, 0}, {err_.reader(), POLLIN, 0}}};
     constexpr long long longest_wait = 60'000;
     if (::poll(pipes.data(), pipes.size(),
-               static_cast<int>(std::min<long long>(left, longest_wait))) < 0) {
-      result_.end = ChildEnd::interrupted;
-      return;
-    }
+               static_cast<int>(std::min<long long>(left, longest_wait))) < 0)
+      return;  // a signal; there is time for another look
     if (pipes[0].revents != 0) take(out_, result_.out, limits_.output_bytes);
     if (pipes[1].revents != 0) take(err_, result_.err, most_error_bytes);
   }
@@ -129,7 +127,8 @@ class Child {
     int status = 0;
     for (;;) {
       const pid_t ended = ::waitpid(process_, &status, WNOHANG);
-      if (ended == process_) {
+      if (ended == process_ || (ended < 0 && errno != EINTR)) {
+        if (ended < 0) result_.end = ChildEnd::unknown;
         process_ = 0;
         return status;
       }

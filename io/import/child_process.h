@@ -16,7 +16,7 @@ enum class ChildEnd {
   killed,       ///< by signal `code`
   too_long,     ///< it took more time than it may
   too_much,     ///< it wrote more bytes than it may
-  interrupted,  ///< a signal reached this process
+  unknown,      ///< the system keeps no account: SIGCHLD is ignored
   cannot_start  ///< errno in `code`
 };
 

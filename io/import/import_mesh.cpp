@@ -8,6 +8,7 @@
 
 #include "io/errors.h"
 #include "io/import/child_process.h"
+#include "io/import/importer_protocol.h"
 #include "io/mesh/mesh_files.h"
 #include "io/mesh/mesh_formats.h"
 
@@ -17,8 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view program_name = "supple-import";
-constexpr std::string_view note_mark = "note: ";
-constexpr int exit_cannot_read = 3;
+constexpr std::string_view note_mark = importer_note;
 
 /// Beside this program, or where the install puts it.
 fs::path find_program() {
@@ -61,12 +61,12 @@ void check_end(const FileBytes& file, const ChildResult& child, double seconds) 
       fail(file, fmt::format("did not end within {:.3g} s", seconds));
     case ChildEnd::too_much:
       fail(file, "answers with more than its memory could hold");
-    case ChildEnd::interrupted:
-      fail(file, "was interrupted");
+    case ChildEnd::unknown:
+      fail(file, "ended in a way that the system does not tell: SIGCHLD is ignored");
     case ChildEnd::cannot_start:
       fail(file, fmt::format("cannot be started: {}", ::strerrordesc_np(child.code)));
   }
-  if (child.code == exit_cannot_read) {
+  if (child.code == importer_cannot_read) {
     const std::string why = child.err.substr(0, child.err.find('\n'));
     fail_foreign(file, fmt::format("{} says: {}", program_name, why));
   }

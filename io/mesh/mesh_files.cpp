@@ -6,10 +6,12 @@
 #include <fmt/format.h>
 
 #include "io/gltf/gltf_formats.h"
+#include "io/gltf/gltf_parts.h"
 #include "io/import/import_mesh.h"
 #include "io/mesh/mesh_checks.h"
 #include "io/mesh/mesh_formats.h"
 #include "io/mesh/number_types.h"
+#include "io/mesh/plain_name.h"
 #include "io/mesh/text_scanner.h"
 #include "io/points/point_formats.h"
 
@@ -142,6 +144,13 @@ std::vector<std::string> left_out_by(const fs::path& path, const Mesh& mesh,
   add(holds_tags | holds_objects, names, "the names of objects and materials");
   add(holds_tags, groups, "groups");
   add(holds_tags, !mesh.material_libraries.empty(), "material libraries");
+  if ((format.holds & (holds_tags | holds_objects)) == holds_objects && !objects_are_apart(mesh))
+    sentences.push_back(fmt::format(
+        "{} holds objects with vertices of their own: these share some, and are written as one",
+        format.name));
+  if ((format.holds & holds_tags) != 0 && !names_are_plain(mesh))
+    sentences.push_back(
+        fmt::format("{} cannot hold line ends, # and \\ where they stand in names", format.name));
   add(holds_materials, mesh.gltf_materials != nullptr, "the materials of glTF and their images");
   const bool doubles = (format.holds & doubles_corners) != 0 &&
                        (mesh.normals.per_corner() || mesh.texcoords.per_corner());

@@ -1,4 +1,5 @@
 #include "io/mesh/mesh_formats.h"
+#include "io/mesh/plain_name.h"
 #include "io/mesh/text_output.h"
 
 namespace supple {
@@ -60,14 +61,15 @@ void write_values(std::string_view keyword, const Attribute<Columns>& attribute,
 }  // namespace
 
 void write_obj(const Mesh& mesh, OutputFile& file) {
-  for (const std::string& library : mesh.material_libraries) print(file, "mtllib {}\n", library);
+  for (const std::string& library : mesh.material_libraries)
+    print(file, "mtllib {}\n", plain_name(library));
   write_vertices(mesh, file);
   write_values("vt", mesh.texcoords, file);
   write_values("vn", mesh.normals, file);
   auto tag = mesh.tags.begin();
   for (int face = 0; face <= mesh.face_count(); ++face) {
     for (; tag != mesh.tags.end() && tag->first_face == face; ++tag)
-      print(file, "{} {}\n", keyword(tag->kind), tag->name);
+      print(file, "{} {}\n", keyword(tag->kind), plain_name(tag->name));
     if (face == mesh.face_count()) break;
     file.write("f");
     for (int corner = mesh.face_starts[face]; corner < mesh.face_starts[face + 1]; ++corner)

@@ -110,7 +110,7 @@ void add_shape(const InspectRun& run, Buffer& text) {
   for (const auto& [present, name] : extras)
     if (present) what += fmt::format(", {}", name);
   line(text, "shape", "{}", what);
-  for (const std::string& note : mesh.notes) line(text, "", "{}", note);
+  for (const std::string& note : mesh.notes) line(text, "", "{}", one_line(note));
 }
 
 void add_size(const InspectRun& run, Buffer& text) {

@@ -25,7 +25,9 @@ void end_now(int) {
 }
 
 void remember(int signal) {
+  const bool again = received != 0;
   received = signal;
+  if (again) end_now(signal);
   ::alarm(seconds_to_end);
 }
 
@@ -33,9 +35,7 @@ void handle_both(void (*handler)(int)) {
   struct sigaction action = {};
   action.sa_handler = handler;
   // Without SA_RESTART: who waits for a pipe's other end is to wait no longer.
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaction(signal, &action, nullptr);
 }
 
 /// Stays until the program ends: that may take its time too.

@@ -190,6 +190,7 @@ void replace_closed_streams() {
 }  // namespace supple
 
 int main(int count, char** words) {
+  std::signal(SIGCHLD, SIG_DFL);  // callers may have it ignored; the importer's end is to be told
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit for files is an error as others are
   std::set_terminate(supple::end_in_the_middle);
   supple::replace_closed_streams();

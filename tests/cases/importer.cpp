@@ -55,7 +55,7 @@ void measure_importer(Figures& figures) {
   figures["refusal_exit_3"] = run_with("echo no >&2; exit 3", program, folder).code == 3;
 
   // What a hang costs is a matter of its limit, which the library's own test shortens.
-  fake_importer(folder, "exec sleep 1000");
+  fake_importer(folder, "exec sleep 10");
   const Program waiting(program, {"inspect", "shape.fbx"}, folder.path());
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   const auto start = std::chrono::steady_clock::now();

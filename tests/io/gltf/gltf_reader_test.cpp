@@ -1,7 +1,11 @@
+#include <chrono>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "io/gltf/gltf_materials.h"
 #include "io/mesh/mesh_files.h"
+#include "tests/support/cut_files.h"
 #include "tests/support/gltf_text.h"
 #include "tests/support/malformed_files.h"
 #include "tests/support/mesh_comparison.h"
@@ -17,12 +21,6 @@ Mesh read(const GltfText& gltf) {
   return read_mesh(folder.put("a.gltf", gltf.text()));
 }
 
-bool says(const Mesh& mesh, std::string_view words) {
-  for (const std::string& note : mesh.notes)
-    if (note.find(words) != std::string::npos) return true;
-  return false;
-}
-
 TEST(GltfReader, AppliesTransformsDownTheTree) {
   GltfText gltf = one_triangle();
   gltf.json["nodes"][0]["scale"] = {2, 1, 1};
@@ -34,7 +32,7 @@ TEST(GltfReader, AppliesTransformsDownTheTree) {
   Points expected(4, 3);
   expected << 10, 0, 0, 10, 4, 0, 7, 0, 0, 10, 0, 4;
   EXPECT_LE(relative_difference(mesh.positions, expected), 1e-15);
-  EXPECT_TRUE(says(mesh, "3 nodes are flattened into 1 objects"));
+  EXPECT_TRUE(has_note(mesh, "3 nodes are flattened into 1 objects"));
 }
 
 TEST(GltfReader, MirroredNodesKeepTheOutsideOut) {
@@ -118,7 +116,7 @@ TEST(GltfReader, SkinsStandWhereTheirJointsPlaceThem) {
   Points expected(4, 3);
   expected << 0, 0, 0, 2, 0, 5, 0, 3, 2.5, 0, 0, 9;
   EXPECT_LE(relative_difference(mesh.positions, expected), 1e-15);
-  EXPECT_TRUE(says(mesh, "1 skins"));
+  EXPECT_TRUE(has_note(mesh, "1 skins"));
 }
 
 TEST(GltfReader, NotesWhatIsLeftOut) {
@@ -131,7 +129,7 @@ TEST(GltfReader, NotesWhatIsLeftOut) {
   const Mesh mesh = read(gltf);
   for (const char* words :
        {"1 animations", "2 cameras", "1 morph targets", "vertex attributes TANGENT"})
-    EXPECT_TRUE(says(mesh, words)) << words;
+    EXPECT_TRUE(has_note(mesh, words)) << words;
 }
 
 /// Materials that refer to each other's parts, with an image beside the file and one inside it.
@@ -154,13 +152,14 @@ GltfText with_materials() {
 
 TEST(GltfReader, MaterialsAndImagesAreKeptAsTheyAre) {
   const TemporaryFolder folder;
-  folder.put("skin of paint.png", "not really\0an image");
+  const std::string png = "\x89PNG of paint";
+  folder.put("skin of paint.png", png);
   const GltfText gltf = with_materials();
   const Mesh mesh = read_mesh(folder.put("a.gltf", gltf.text()));
   ASSERT_EQ(mesh.tags.size(), 2u);
   EXPECT_EQ(mesh.tags[1].name, "paint (2)");
-  EXPECT_TRUE(says(mesh, "no file in the folder of this one"));
-  EXPECT_TRUE(says(mesh, "other texture coordinates"));
+  EXPECT_TRUE(has_note(mesh, "no file in the folder of this one"));
+  EXPECT_TRUE(has_note(mesh, "other texture coordinates"));
   write_mesh(mesh, folder / "b.glb");
   std::filesystem::remove(folder / "skin of paint.png");
   const Mesh again = read_mesh(folder / "b.glb");
@@ -169,10 +168,63 @@ TEST(GltfReader, MaterialsAndImagesAreKeptAsTheyAre) {
   EXPECT_EQ(b.materials, a.materials);
   EXPECT_EQ(b.textures, gltf.json["textures"]);
   EXPECT_EQ(b.samplers, gltf.json["samplers"]);
-  EXPECT_EQ(b.image_bytes, (std::vector<std::string>{"not really", "\x89PNG\1\2\3", ""}));
+  EXPECT_EQ(b.image_bytes, (std::vector<std::string>{png, "\x89PNG\1\2\3", ""}));
   EXPECT_EQ(b.images[1]["mimeType"], "image/png");
   EXPECT_EQ(b.extensions, std::vector<std::string>{"KHR_materials_clearcoat"});
   expect_same_mesh(mesh, again, 1e-7);
+}
+
+/// Links and files that are no images are not given away.
+TEST(GltfReader, EmbedsOnlyImagesOfItsFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "in");
+  folder.put("secret.png", "\x89PNG secret");
+  std::filesystem::create_symlink(folder / "secret.png", folder / "in/linked.png");
+  folder.put("in/id_rsa", "secret key");
+  folder.put("in/paint.png", "\x89PNG");
+  GltfText gltf = one_triangle();
+  gltf.json["materials"] = {json::object()};
+  for (const char* uri : {"linked.png", "id_rsa", "%2e%2e/secret.png", "paint.png"})
+    gltf.json["images"].push_back({{"uri", uri}});
+  const Mesh mesh = read_mesh(folder.put("in/a.gltf", gltf.text()));
+  EXPECT_EQ(mesh.gltf_materials->image_bytes, (std::vector<std::string>{"", "", "", "\x89PNG"}));
+  EXPECT_TRUE(has_note(mesh, "3 images are only named"));
+}
+
+TEST(GltfReader, TextureCoordinatesCountFromBelow) {
+  GltfText gltf = one_triangle();
+  gltf.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+      gltf.add(std::vector<float>{0, 0, 1, 0.25f, 0.5f, 1, 0, 2}, "VEC2", 5126);
+  Eigen::Matrix<double, 4, 2> expected;
+  expected << 0, 1, 1, 0.75, 0.5, 0, 0, -1;
+  EXPECT_EQ(read(gltf).texcoords.values, expected);
+}
+
+TEST(GltfReader, NormalsFollowStretchedAndMirroredNodes) {
+  GltfText gltf = one_triangle();
+  const float s = std::sqrt(0.5f);
+  gltf.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
+      gltf.add_vectors({s, s, 0, 0, 0, 1, 0, 1, 0, s, 0, s});
+  gltf.json["nodes"][0]["matrix"] = {-2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1};
+  const Mesh mesh = read(gltf);
+  Points expected(4, 3);
+  expected << -1, 2, 0, 0, 0, 1, 0, 1, 0, -1, 0, 2;
+  expected.rowwise().normalize();
+  EXPECT_LE(relative_difference(mesh.normals.values, expected), 1e-7);
+  EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(1, 6, 7));
+}
+
+TEST(GltfReader, JointsMayStandOutsideTheScene) {
+  GltfText gltf = one_triangle();
+  json& attributes = gltf.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["JOINTS_0"] = gltf.add(std::vector<std::uint8_t>(16, 0), "VEC4", 5121);
+  attributes["WEIGHTS_0"] =
+      gltf.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4", 5126);
+  gltf.json["skins"] = {{{"joints", {1}}}};
+  gltf.json["nodes"][0]["skin"] = 0;
+  gltf.json["nodes"].push_back({{"translation", {0, 100, 0}}});
+  gltf.json["scenes"] = {{{"nodes", {0}}}};
+  EXPECT_EQ(read(gltf).positions.row(0), Eigen::RowVector3d(0, 100, 0));
 }
 
 /// `change` makes the file wrong; the message holds `words`.
@@ -231,6 +283,18 @@ TEST(GltfReader, RefusesWhatIsNotThere) {
   expect_refused_after([](json& j) { j["asset"]["version"] = "1.0"; }, "only glTF 2");
   expect_refused_after(
       [](json& j) {
+        j["accessors"][0]["sparse"] = {{"count", 300000}};
+      },
+      "sparse: count 300000 of 4");
+  expect_refused_after(
+      [](json& j) {
+        j["skins"] = {{{"joints", {1}}}};
+        j["nodes"][0]["skin"] = 0;
+        j["nodes"].push_back({{"children", {1}}});
+      },
+      "stands in no tree");
+  expect_refused_after(
+      [](json& j) {
         j["buffers"] = 3;
         j.erase("asset");
       },
@@ -265,6 +329,35 @@ TEST(GltfReader, RefusesBrokenContainers) {
                   {"a.glb", container("JSON", 2, "{}"), "asset"},
                   {"a.glb", container("JSON", 2, "{]"), "it is not JSON"},
                   {"a.gltf", deep, "nests deeper than 200"}});
+}
+
+/// Small files that repeat what is large: each takes no longer than its size makes it.
+TEST(GltfReader, SmallFilesStaySmall) {
+  const TemporaryFolder folder;
+  const auto seconds = [&](const GltfText& gltf) {
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      read_mesh(folder.put("a.gltf", gltf.text()));
+    } catch (const InputError&) {
+    }
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  constexpr double most = 20;  // quadratic time would be minutes, also without a sanitizer
+  GltfText names = one_triangle();
+  for (int i = 0; i < 60000; ++i) names.json["materials"].push_back({{"name", "m"}});
+  EXPECT_LT(seconds(names), most);
+  GltfText skins = one_triangle();
+  for (int i = 0; i < 20000; ++i) skins.json["skins"][0]["joints"].push_back(0);
+  for (int i = 0; i < 3000; ++i) skins.json["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
+  EXPECT_LT(seconds(skins), most);
+  GltfText extensions = one_triangle();
+  extensions.json["materials"] = {json::object()};
+  for (int i = 0; i < 60000; ++i) {
+    const std::string name = "KHR_materials_" + std::to_string(i);
+    extensions.json["materials"][0]["extensions"][name] = json::object();
+    extensions.json["extensionsRequired"].push_back(name);
+  }
+  EXPECT_LT(seconds(extensions), most);
 }
 
 TEST(GltfReader, RefusesMeshesRepeatedWithoutEnd) {

@@ -85,7 +85,8 @@ TEST(GltfWriter, ObjectsHaveVerticesOfTheirOwn) {
   mesh.face_vertices.back() = 0;
   const Mesh joined = through(mesh, "a.glb");
   expect_same_shape(mesh, joined, 1e-7);
-  EXPECT_EQ(joined.tags.size(), 1u);
+  for (const FaceTag& tag : joined.tags) EXPECT_NE(tag.name, "left");
+  EXPECT_EQ(left_out_by("a.glb", mesh).size(), 1u);
 }
 
 TEST(GltfWriter, CornersWithValuesOfTheirOwnAreDoubledBehindTheOthers) {
@@ -102,6 +103,20 @@ TEST(GltfWriter, CornersWithValuesOfTheirOwnAreDoubledBehindTheOthers) {
   for (std::size_t corner = 0; corner < 36; ++corner)
     EXPECT_EQ(back.positions.row(back.face_vertices[corner]),
               mesh.positions.row(mesh.face_vertices[corner]));
+}
+
+TEST(GltfWriter, NamesOfAnyBytesDoNoHarmInObj) {
+  Mesh mesh = box_of_triangles();
+  mesh.normals = {};
+  mesh.texcoords = {};
+  mesh.colors = {};
+  for (const char* name : {"a\nv 9 9 9\nf 1 2 9", "line\\", "#x", "a #b", "\r", " "}) {
+    mesh.tags = {{Kind::object, name, 0}, {Kind::material, name, 3}};
+    const Mesh back = through(mesh, "a.obj");
+    expect_same_shape(mesh, back, 0);
+    EXPECT_EQ(back.tags.size(), 2u) << name;
+    EXPECT_EQ(left_out_by("a.obj", mesh).size(), 1u) << name;
+  }
 }
 
 TEST(GltfWriter, PointClouds) {

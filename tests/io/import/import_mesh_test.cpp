@@ -1,6 +1,7 @@
 #include "io/import/import_mesh.h"
 
 #include <chrono>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -60,11 +61,11 @@ TEST(ImportMesh, ReadsForeignFormats) {
 
 TEST(ImportMesh, RefusesWhatIsNoMesh) {
   const TemporaryFolder folder;
-  for (const auto& [name, bytes] : {std::pair<std::string, std::string>{"a.txt", "hello\n"},
-                                    {"a.dae", "<COLLADA>"},
-                                    {"a.3ds", "MM\xff\xff\xff\xff"}})
+  const std::pair<const char*, const char*> files[] = {
+      {"a.txt", "hello\n"}, {"a.dae", "<COLLADA>"}, {"a.3ds", "MM\xff\xff\xff\xff"}};
+  for (const auto& file : files)
     EXPECT_NE(message_of<InputError>([&] {
-                import_mesh(put(folder, name, bytes), with_assimp);
+                import_mesh(put(folder, file.first, file.second), with_assimp);
               }).find("none of our formats"),
               std::string::npos);
 }
@@ -106,16 +107,46 @@ TEST(ImportMesh, SaysWhereItIsMissing) {
             std::string::npos);
 }
 
+std::string big_endian(std::uint32_t number, int bytes) {
+  std::string text;
+  for (int i = bytes - 1; i >= 0; --i) text += static_cast<char>(number >> 8 * i & 255);
+  return text;
+}
+
+std::string chunk(const std::string& name, const std::string& bytes) {
+  return name + big_endian(static_cast<std::uint32_t>(bytes.size()), 4) + bytes;
+}
+
+/// A triangle as a LightWave object, which scenes name by its path.
+std::string lightwave_triangle() {
+  std::string points(36, '\0');
+  points.replace(12, 2, "\x3f\x80").replace(28, 2, "\x3f\x80");  // two ones
+  const std::string face =
+      "FACE" + big_endian(3, 2) + big_endian(0, 2) + big_endian(1, 2) + big_endian(2, 2);
+  const std::string name("a\0", 2);
+  return chunk("FORM", "LWO2" + chunk("TAGS", name) + chunk("LAYR", std::string(18, '\0')) +
+                           chunk("PNTS", points) + chunk("POLS", face) +
+                           chunk("PTAG", "SURF" + std::string(4, '\0')) +
+                           chunk("SURF", name + std::string(2, '\0')));
+}
+
 /// A file may not name others that are not beside it.
 TEST(ImportMesh, SeesOnlyTheFilesFolder) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "in");
-  folder.put("secret.lwo", "x");
-  const std::string scene = "LWSC\n3\nLoadObject ../secret.lwo\n";
-  EXPECT_NE(message_of<InputError>([&] {
-              import_mesh(put(folder, "in/a.lws", scene), with_assimp);
-            }).find("cannot read"),
-            std::string::npos);
+  folder.put("secret.lwo", lightwave_triangle());
+  folder.put("in/object.lwo", lightwave_triangle());
+  std::filesystem::create_symlink(folder / "secret.lwo", folder / "in/link.lwo");
+  const auto scene_of = [&](const std::string& object) {
+    const std::string text = "LWSC\n3\n\nLoadObjectLayer 1 " + object + "\nShowObject 7 3\n";
+    return import_mesh(put(folder, "in/a.lws", text), with_assimp);
+  };
+  EXPECT_EQ(scene_of("object.lwo").positions.rows(), 3);
+  for (const std::string& object :
+       {std::string("../secret.lwo"), (folder / "secret.lwo").string(), std::string("link.lwo")})
+    EXPECT_NE(message_of<InputError>([&] { scene_of(object); }).find("no vertices"),
+              std::string::npos)
+        << object;
 }
 
 }  // namespace
