@@ -278,7 +278,8 @@ TEST(WriteMesh, RefusesWhatItCannotWrite) {
   for (const char* name : {"a.pts", "a", "a.fbx"}) {
     EXPECT_FALSE(can_write_mesh(folder / name));
     const std::string message = message_of<OutputError>([&] { write_mesh(mesh, folder / name); });
-    EXPECT_NE(message.find("obj, off, ply, stl, glb, gltf, pcd, pwn, xyz"), std::string::npos) << message;
+    EXPECT_NE(message.find("obj, off, ply, stl, glb, gltf, pcd, pwn, xyz"), std::string::npos)
+        << message;
   }
   Mesh far = mesh;
   far.positions *= 1e100;
