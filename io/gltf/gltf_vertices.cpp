@@ -112,6 +112,7 @@ void GltfVertices::append_texcoords(const AccessorValues& values, Index before, 
 void GltfVertices::append_colors(const AccessorValues& values, Index before, Index count) {
   if (values.rows() == 0) return colors_.append_missing(count);
   colors_.begin(before);
+  if (count > 0) bright_ += (values.rowwise().maxCoeff().array() > 1).count();
   for (Index i = 0; i < count; ++i)
     colors_.append(std::array{srgb_from_linear(values(i, 0)), srgb_from_linear(values(i, 1)),
                               srgb_from_linear(values(i, 2)),
@@ -139,6 +140,14 @@ void GltfVertices::take(Mesh& mesh) {
   }
   take_values(texcoords_, mesh.texcoords);
   take_values(colors_, mesh.colors);
+  const auto note_filled = [&](const GltfColumn& column, std::string_view what) {
+    if (column.missing > 0 && column.missing < count())
+      mesh.notes.push_back(fmt::format("{} vertices have no {}", column.missing, what));
+  };
+  note_filled(texcoords_, "texture coordinates: now (0, 0)");
+  note_filled(colors_, "color: now white");
+  if (bright_ > 0)
+    mesh.notes.push_back(fmt::format("{} colors are brighter than 1: now 1", bright_));
 }
 
 }  // namespace supple

@@ -51,6 +51,7 @@ class GltfVertices {
 
   const GltfDocument& document_;
   std::vector<double> positions_;
+  Index bright_ = 0;  ///< colors beyond what screens show
   GltfColumn normals_{{0, 0, 0}}, texcoords_{{0, 0}}, colors_{{1, 1, 1, 1}};
 };
 

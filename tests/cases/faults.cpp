@@ -220,7 +220,7 @@ void measure_signals(Figures& figures) {
       {"study", "ball.ply", "--fix", "z<10%", "--move", "z>90%", "--by", "10%,0,0", "-o", "study"}};
   int turn = 0;
   ::mkfifo((bar.folder / "pipe.ply").c_str(), 0600);  // which nobody reads
-  for (const int signal : {SIGINT, SIGTERM})
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     measure_signal(bar, quick_pose("bar.off", {"-o", "pipe.ply"}), 1, signal, figures);
   for (const Words& words : runs)
     for (const double after : {0.1, 0.4, 1.0, 3.0})

@@ -253,7 +253,7 @@ constexpr Limit table[] = {
     {"K13", "broken", equal, 0, "outputs that are neither absent nor old nor complete"},
     {"K13", "differs_at_last", equal, 0, "1: what a last run writes differs from the first's"},
     {"K13", "others", at_most, 30, "hidden temporary files that 100 kills left"},
-    {"K15", "stopped", equal, 14, "runs stopped by SIGINT, SIGTERM after 0.1 … 3 s; 2 wait for a pipe"},
+    {"K15", "stopped", equal, 15, "runs stopped by SIGINT, SIGTERM, SIGHUP after 0.1 … 3 s; 3 wait for a pipe"},
     {"K15", "other_exit_codes", equal, 0, "than 128 + n"},
     {"K15", "seconds", at_most, 2, "from the signal to the end, the longest"},
     {"K15", "left_behind", equal, 0, "files that were not there before"},
