@@ -41,7 +41,7 @@ class GltfWriter {
       put_part(part);
     }
     json_["scene"] = 0;
-    json_["scenes"] = {{{"nodes", scene}}};
+    json_["scenes"] = json::array({json{{"nodes", scene}}});
   }
 
   /// The document, its one buffer not yet in it.
@@ -230,7 +230,7 @@ std::size_t chunk_bytes(std::string_view bytes) {
 
 void write_glb(const Mesh& mesh, OutputFile& file) {
   GltfWriter writer(mesh, file);
-  writer.document()["buffers"] = {{{"byteLength", writer.bytes().size()}}};
+  writer.document()["buffers"] = json::array({json{{"byteLength", writer.bytes().size()}}});
   const std::string text = text_of(writer.document());
   const std::size_t length = 12 + chunk_bytes(text) + chunk_bytes(writer.bytes());
   if (length > std::numeric_limits<std::uint32_t>::max())
@@ -246,9 +246,9 @@ void write_glb(const Mesh& mesh, OutputFile& file) {
 
 void write_gltf(const Mesh& mesh, OutputFile& file) {
   GltfWriter writer(mesh, file);
-  writer.document()["buffers"] = {
-      {{"byteLength", writer.bytes().size()},
-       {"uri", "data:application/octet-stream;base64," + to_base64(writer.bytes())}}};
+  const std::string uri = "data:application/octet-stream;base64," + to_base64(writer.bytes());
+  const json buffer = {{"byteLength", writer.bytes().size()}, {"uri", uri}};
+  writer.document()["buffers"] = json::array({buffer});
   file.write(text_of(writer.document()));
 }
 

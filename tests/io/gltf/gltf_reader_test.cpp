@@ -121,8 +121,8 @@ TEST(GltfReader, SkinsStandWhereTheirJointsPlaceThem) {
 
 TEST(GltfReader, NotesWhatIsLeftOut) {
   GltfText gltf = one_triangle();
-  gltf.json["animations"] = {json::object()};
-  gltf.json["cameras"] = {json::object(), json::object()};
+  gltf.json["animations"] = json::array({json::object()});
+  gltf.json["cameras"] = json::array({json::object(), json::object()});
   json& primitive = gltf.json["meshes"][0]["primitives"][0];
   primitive["targets"] = {{{"POSITION", 0}}};
   primitive["attributes"]["TANGENT"] = 0;
@@ -183,7 +183,7 @@ TEST(GltfReader, EmbedsOnlyImagesOfItsFolder) {
   folder.put("in/id_rsa", "secret key");
   folder.put("in/paint.png", "\x89PNG");
   GltfText gltf = one_triangle();
-  gltf.json["materials"] = {json::object()};
+  gltf.json["materials"] = json::array({json::object()});
   for (const char* uri : {"linked.png", "id_rsa", "%2e%2e/secret.png", "paint.png"})
     gltf.json["images"].push_back({{"uri", uri}});
   const Mesh mesh = read_mesh(folder.put("in/a.gltf", gltf.text()));
@@ -351,7 +351,7 @@ TEST(GltfReader, SmallFilesStaySmall) {
   for (int i = 0; i < 3000; ++i) skins.json["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
   EXPECT_LT(seconds(skins), most);
   GltfText extensions = one_triangle();
-  extensions.json["materials"] = {json::object()};
+  extensions.json["materials"] = json::array({json::object()});
   for (int i = 0; i < 60000; ++i) {
     const std::string name = "KHR_materials_" + std::to_string(i);
     extensions.json["materials"][0]["extensions"][name] = json::object();
