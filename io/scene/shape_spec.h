@@ -48,7 +48,8 @@ struct ShapeSpec {
 
   template <class Self, class Visitor>
   static void describe(Self& self, Visitor&& visit) {
-    visit("mesh", self.mesh, {.doc = "triangle or polygon mesh: OBJ, PLY, OFF, STL"});
+    visit("mesh", self.mesh,
+          {.doc = "triangle or polygon mesh: OBJ, PLY, OFF, STL, glTF, or what assimp reads"});
     visit("points", self.points,
           {.doc = "point cloud: XYZ, PWN, PCD, or the vertices of a mesh file; instead of mesh"});
     visit("units", self.units,

@@ -63,10 +63,10 @@ std::string value_form() {
 }  // namespace
 
 void SceneArguments::declare(CommandLine& line) {
-  line.positional(
-      "SHAPE",
-      "a mesh (OBJ, PLY, OFF, STL), a point cloud (PLY, XYZ, PWN, PCD), or a scene (.yaml)",
-      [this](const std::string& value) { path_ = value; });
+  line.positional("SHAPE",
+                  "a mesh (OBJ, PLY, OFF, STL, GLB, ...), a point cloud (PLY, XYZ, PWN, PCD), or a "
+                  "scene (.yaml)",
+                  [this](const std::string& value) { path_ = value; });
   handles_.declare(line);
   parts_.declare(line);
   line.option("--region", {"SELECTION", "move nothing outside this part; see --region-blend"},
