@@ -4,7 +4,6 @@
 #include <charconv>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <new>
 #include <string_view>
@@ -53,7 +52,7 @@ int import(const char* path) {
     supple::write_obj(mesh, out);
     out.commit();
     for (const std::string& note : mesh.notes)
-      std::fprintf(stderr, "%s%s\n", supple::importer_note, note.c_str());
+      std::fprintf(stderr, "%s%s\n", supple::importer_note.data(), note.c_str());
     return 0;
   } catch (const std::bad_alloc&) {
     std::fputs("it asks for more memory than such a file may take\n", stderr);

@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/file_bytes.h"
 #include "io/gltf/gltf_object.h"
-#include "io/mesh/file_bytes.h"
 
 namespace supple {
 

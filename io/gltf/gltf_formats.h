@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/mesh/file_bytes.h"
+#include "io/file_bytes.h"
 #include "io/mesh/mesh.h"
 #include "io/output_file.h"
 

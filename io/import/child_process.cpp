@@ -108,6 +108,7 @@ class Child {
   void take(Pipe& pipe, std::string& bytes, std::size_t most) {
     std::array<char, 1 << 16> buffer;
     const ssize_t got = ::read(pipe.reader(), buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) return;
     if (got <= 0) return pipe.close_reader();
     const auto count = static_cast<std::size_t>(got);
     if (&bytes == &result_.out && count > most - bytes.size()) result_.end = ChildEnd::too_much;

@@ -18,7 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view program_name = "supple-import";
-constexpr std::string_view note_mark = importer_note;
 
 /// Beside this program, or where the install puts it.
 fs::path find_program() {
@@ -76,7 +75,7 @@ void check_end(const FileBytes& file, const ChildResult& child, double seconds) 
 void take_notes(std::string_view lines, Mesh& mesh) {
   while (!lines.empty()) {
     const std::string_view line = lines.substr(0, lines.find('\n'));
-    if (line.starts_with(note_mark)) mesh.notes.emplace_back(line.substr(note_mark.size()));
+    if (line.starts_with(importer_note)) mesh.notes.emplace_back(line.substr(importer_note.size()));
     lines.remove_prefix(std::min(lines.size(), line.size() + 1));
   }
 }

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "io/mesh/file_bytes.h"
+#include "io/file_bytes.h"
 #include "io/mesh/mesh.h"
 
 namespace supple {

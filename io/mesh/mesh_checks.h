@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "io/mesh/file_bytes.h"
+#include "io/file_bytes.h"
 #include "io/mesh/mesh.h"
 
 namespace supple {

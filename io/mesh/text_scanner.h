@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/mesh/file_bytes.h"
+#include "io/file_bytes.h"
 
 namespace supple {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "io/mesh/file_bytes.h"
+#include "io/file_bytes.h"
 #include "io/scene/read_value.h"
 #include "io/scene/scene_overrides.h"
 #include "io/scene/yaml_tree.h"

@@ -31,11 +31,14 @@ void remember(int signal) {
   ::alarm(seconds_to_end);
 }
 
-void handle_both(void (*handler)(int)) {
-  struct sigaction action = {};
+/// Signals that the caller has ignored (nohup, a shell's background) stay so.
+void handle_stops(void (*handler)(int)) {
+  struct sigaction action = {}, old;
   action.sa_handler = handler;
   // Without SA_RESTART: who waits for a pipe's other end is to wait no longer.
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaction(signal, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
+    if (sigaction(signal, nullptr, &old) == 0 && old.sa_handler != SIG_IGN)
+      sigaction(signal, &action, nullptr);
 }
 
 /// Stays until the program ends: that may take its time too.
@@ -49,10 +52,10 @@ void handle_alarm() {
 
 InterruptWatch::InterruptWatch() {
   handle_alarm();
-  handle_both(remember);
+  handle_stops(remember);
 }
 InterruptWatch::~InterruptWatch() {
-  handle_both(SIG_DFL);
+  handle_stops(SIG_DFL);
 }
 
 int InterruptWatch::signal() {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "io/errors.h"
-#include "io/mesh/file_bytes.h"
+#include "io/file_bytes.h"
 #include "io/scene/complaint.h"
 
 namespace supple {

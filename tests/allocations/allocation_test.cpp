@@ -6,6 +6,7 @@
 
 #include "modeler/pose/pose_session.h"
 #include "solver/core/parallel.h"
+#include "tests/allocations/c_library_malloc.h"
 #include "tests/support/bar_scene.h"
 #include "tests/support/shapes.h"
 
@@ -15,13 +16,7 @@ std::atomic<long> allocations{0};
 
 }  // namespace
 
-// The C library's own functions, under the names that it keeps for those who replace them.
 extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* memory, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-
 void* malloc(std::size_t size) {
   ++allocations;
   return __libc_malloc(size);

@@ -11,6 +11,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "tests/allocations/c_library_malloc.h"
+
 namespace {
 
 std::atomic<long> allocations{0};
@@ -50,11 +52,6 @@ int counted_main(int count, char** words, char** variables) {
 }  // namespace
 
 extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* memory, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-
 void* malloc(std::size_t size) {
   return fails() ? nullptr : __libc_malloc(size);
 }

@@ -1,4 +1,3 @@
-#include <chrono>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -331,25 +330,15 @@ TEST(GltfReader, RefusesBrokenContainers) {
                   {"a.gltf", deep, "nests deeper than 200"}});
 }
 
-/// Small files that repeat what is large: each takes no longer than its size makes it.
+/// Small files that repeat what is large: in quadratic time each would outlast the test's time.
 TEST(GltfReader, SmallFilesStaySmall) {
-  const TemporaryFolder folder;
-  const auto seconds = [&](const GltfText& gltf) {
-    const auto start = std::chrono::steady_clock::now();
-    try {
-      read_mesh(folder.put("a.gltf", gltf.text()));
-    } catch (const InputError&) {
-    }
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
-  constexpr double most = 20;  // quadratic time would be minutes, also without a sanitizer
   GltfText names = one_triangle();
   for (int i = 0; i < 60000; ++i) names.json["materials"].push_back({{"name", "m"}});
-  EXPECT_LT(seconds(names), most);
+  EXPECT_EQ(read(names).gltf_materials->names.back(), "m (60000)");
   GltfText skins = one_triangle();
   for (int i = 0; i < 20000; ++i) skins.json["skins"][0]["joints"].push_back(0);
   for (int i = 0; i < 3000; ++i) skins.json["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
-  EXPECT_LT(seconds(skins), most);
+  EXPECT_EQ(read(skins).positions.rows(), 4 * 3001);
   GltfText extensions = one_triangle();
   extensions.json["materials"] = json::array({json::object()});
   for (int i = 0; i < 60000; ++i) {
@@ -357,7 +346,7 @@ TEST(GltfReader, SmallFilesStaySmall) {
     extensions.json["materials"][0]["extensions"][name] = json::object();
     extensions.json["extensionsRequired"].push_back(name);
   }
-  EXPECT_LT(seconds(extensions), most);
+  EXPECT_EQ(read(extensions).gltf_materials->required_extensions.size(), 60000u);
 }
 
 TEST(GltfReader, RefusesMeshesRepeatedWithoutEnd) {

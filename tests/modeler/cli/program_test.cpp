@@ -233,6 +233,18 @@ TEST_F(ProgramTest, SignalsStopARunWithNothingHalfWritten) {
     expect_lacks(entry.path().filename().string(), "posed");
 }
 
+/// As nohup and shells' background jobs have it.
+TEST_F(ProgramTest, SignalsThatTheCallerIgnoresStopNothing) {
+  const std::string lines =
+      "trap '' HUP INT; \"$0\" study bar.obj --fix 'y<10%' --move 'y>90%' --by 10%,0,0 "
+      "--knobs particles --quick --quiet -o study & pid=$!; sleep 0.3; kill -HUP $pid; "
+      "kill -INT $pid; kill -0 $pid || exit 99; wait $pid";
+  const ProgramResult result =
+      Program("/bin/sh", {"-c", lines, SUPPLE_PROGRAM}, folder.path()).wait();
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(exists("study/study.csv"));
+}
+
 TEST_F(ProgramTest, StandardOutputTakesOneOutput) {
   const std::vector<std::string> pose = {"pose",  "bar.obj", "--particles", "60",   "--fix",
                                          "y<10%", "--move",  "y>90%",       "--by", "0.1,0,0"};

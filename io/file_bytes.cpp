@@ -1,4 +1,4 @@
-#include "io/mesh/file_bytes.h"
+#include "io/file_bytes.h"
 
 #include <cerrno>
 #include <cstring>
